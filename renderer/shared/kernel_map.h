@@ -1,0 +1,146 @@
+// The kernel log-polar map between screen and reduced buffer; the one place where its mathematics stands.
+// Meng, Du, Zwicker, Varshney 2018, "Kernel Foveated Rendering", Eqs. 9 to 13 and Algorithms 1 and 2.
+//
+// Author orientation (default):  u / w = K(ln r / L)        r = exp(L * K^-1(u / w))
+// As printed in Eq. 10:          u / w = K^-1(ln r / L)     r = exp(L * K(u / w))
+// Both:                          v / h = theta / 2 pi, theta in [0, 2 pi) from +x towards +y (down).
+//
+// Screen positions are pixels from the top left corner, pixel (i, j) centred at (i + 0.5, j + 0.5). Buffer positions
+// are texels, texel (a, b) centred at (a + 0.5, b + 0.5); the buffer wraps in v and clamps in u.
+#ifndef PARAFOVEA_KERNEL_MAP_H
+#define PARAFOVEA_KERNEL_MAP_H
+
+#include "bridge.h"
+
+SHARED_BEGIN
+
+const uint kKernelPower = 0u;       // x^alpha
+const uint kKernelPolynomial = 1u;  // beta_1 x + ... + beta_8 x^8, the betas adding up to 1 (Eq. 9)
+const uint kKernelSine = 2u;        // sin(x pi / 2)
+const uint kKernelExponential = 3u;  // (e^x - 1) / (e - 1)
+
+const float kPi = 3.14159265358979f;
+
+// Uniform block; std140. Sizes in pixels or texels as floats.
+struct KernelMap {
+    vec2 screen_size;      // W, H
+    vec2 buffer_size;      // w, h
+    vec2 gaze;             // screen position of the fovea
+    float log_max_radius;  // L, ln of the largest distance from the gaze to a screen corner (Eqs. 12, 13)
+    float alpha;           // exponent of kKernelPower
+    uint kernel;           // one of the kKernel* constants
+    uint as_printed;       // 1: Eq. 10's direction, 0: the author orientation
+    uint pad_0;
+    uint pad_1;
+    vec4 beta_low;   // beta_1 .. beta_4
+    vec4 beta_high;  // beta_5 .. beta_8
+};
+
+SHARED_FUNCTION float polynomial_kernel(KernelMap map, float x) {
+    float high = map.beta_high.x + x * (map.beta_high.y + x * (map.beta_high.z + x * map.beta_high.w));
+    return x * (map.beta_low.x +
+                x * (map.beta_low.y + x * (map.beta_low.z + x * (map.beta_low.w + x * high))));
+}
+
+// K(x) for x in [0, 1]; K(0) = 0, K(1) = 1, rising.
+SHARED_FUNCTION float kernel(KernelMap map, float x) {
+    if (map.kernel == kKernelPower) return x <= 0.0f ? 0.0f : pow(x, map.alpha);
+    if (map.kernel == kKernelPolynomial) return polynomial_kernel(map, x);
+    if (map.kernel == kKernelSine) return sin(x * (0.5f * kPi));
+    return (exp(x) - 1.0f) * (1.0f / 1.71828182845905f);
+}
+
+// K^-1(y) for y in [0, 1].
+SHARED_FUNCTION float inverse_kernel(KernelMap map, float y) {
+    if (map.kernel == kKernelPower) return y <= 0.0f ? 0.0f : pow(y, 1.0f / map.alpha);
+    if (map.kernel == kKernelPolynomial) {
+        // A rising polynomial has one root in the bracket; 30 halvings reach the last bit of a float.
+        float low = 0.0f;
+        float high = 1.0f;
+        for (int i = 0; i < 30; ++i) {
+            float middle = 0.5f * (low + high);
+            if (polynomial_kernel(map, middle) < y)
+                low = middle;
+            else
+                high = middle;
+        }
+        return 0.5f * (low + high);
+    }
+    if (map.kernel == kKernelSine) return asin(min(y, 1.0f)) * (2.0f / kPi);
+    return log(1.0f + y * 1.71828182845905f);
+}
+
+// arctan(x) for x in [0, 1], to 2e-8 (Abramowitz and Stegun 1964, 4.4.49). Vulkan lets atan() be off by 4096 ULP.
+SHARED_FUNCTION float arctan_unit(float x) {
+    float s = x * x;
+    float p = 0.0028662257f;
+    p = p * s - 0.0161657367f;
+    p = p * s + 0.0429096138f;
+    p = p * s - 0.0752896400f;
+    p = p * s + 0.1065626393f;
+    p = p * s - 0.1420889944f;
+    p = p * s + 0.1999355085f;
+    p = p * s - 0.3333314528f;
+    return x + x * s * p;
+}
+
+// The angle of (x, y) in turns, in [0, 1); 0 for the zero vector.
+SHARED_FUNCTION float turns_of(float x, float y) {
+    float ax = abs(x);
+    float ay = abs(y);
+    float larger = max(ax, ay);
+    if (larger <= 0.0f) return 0.0f;
+    float turns = arctan_unit(min(ax, ay) / larger) * (0.5f / kPi);
+    if (ay > ax) turns = 0.25f - turns;
+    if (x < 0.0f) turns = 0.5f - turns;
+    if (y < 0.0f) turns = 1.0f - turns;
+    return turns >= 1.0f ? 0.0f : turns;
+}
+
+// (cos, sin) of an angle given in turns, to 1e-7. Vulkan lets sin() and cos() be off by 2^-11.
+SHARED_FUNCTION vec2 unit_vector(float turns) {
+    float quarter = floor(turns * 4.0f + 0.5f);
+    float x = (turns - quarter * 0.25f) * (2.0f * kPi);
+    float s = x * x;
+    float sine = x * (1.0f + s * (-1.0f / 6.0f + s * (1.0f / 120.0f + s * (-1.0f / 5040.0f + s * (1.0f / 362880.0f)))));
+    float cosine = 1.0f + s * (-0.5f + s * (1.0f / 24.0f + s * (-1.0f / 720.0f + s * (1.0f / 40320.0f))));
+    float turn_quarter = quarter - 4.0f * floor(quarter * 0.25f);
+    if (turn_quarter < 0.5f) return vec2(cosine, sine);
+    if (turn_quarter < 1.5f) return vec2(-sine, cosine);
+    if (turn_quarter < 2.5f) return vec2(-cosine, -sine);
+    return vec2(sine, -cosine);
+}
+
+// Screen position to buffer position (Algorithm 1). r < 1 counts as r = 1. u in [0, w] on screen, v in [0, h).
+SHARED_FUNCTION vec2 buffer_from_screen(KernelMap map, vec2 position) {
+    float x = position.x - map.gaze.x;
+    float y = position.y - map.gaze.y;
+    float r = max(sqrt(x * x + y * y), 1.0f);
+    float radial = min(log(r) / map.log_max_radius, 1.0f);
+    float u = map.as_printed == 0u ? kernel(map, radial) : inverse_kernel(map, radial);
+    return vec2(u * map.buffer_size.x, turns_of(x, y) * map.buffer_size.y);
+}
+
+// Distance from the gaze, in pixels, of buffer column position u (Algorithm 2).
+SHARED_FUNCTION float radius_of_column(KernelMap map, float u) {
+    float radial = clamp(u / map.buffer_size.x, 0.0f, 1.0f);
+    return exp(map.log_max_radius * (map.as_printed == 0u ? inverse_kernel(map, radial) : kernel(map, radial)));
+}
+
+// Buffer position to screen position (Algorithm 2); may lie off the screen.
+SHARED_FUNCTION vec2 screen_from_buffer(KernelMap map, vec2 position) {
+    float r = radius_of_column(map, position.x);
+    vec2 direction = unit_vector(position.y / map.buffer_size.y);
+    return vec2(map.gaze.x + r * direction.x, map.gaze.y + r * direction.y);
+}
+
+// Distance between neighbouring samples at a buffer position, in pixels: (radial, tangential).
+SHARED_FUNCTION vec2 sample_spacing(KernelMap map, vec2 position) {
+    float low = radius_of_column(map, position.x - 0.5f);
+    float high = radius_of_column(map, position.x + 0.5f);
+    return vec2(high - low, radius_of_column(map, position.x) * (2.0f * kPi) / map.buffer_size.y);
+}
+
+SHARED_END
+
+#endif
