@@ -16,19 +16,19 @@ enum class PictureKind { black, fixation, stimulus, question, text };
 
 struct Picture {
     PictureKind kind = PictureKind::black;
-    std::string scene;          // stimulus only: a scene's name or glTF path
-    MethodSetting method;       // stimulus only: how it is rendered
-    PointPx fovea;              // stimulus only: where the foveation is centred
-    std::string text;           // text and question only
+    std::string scene;     // stimulus only: a scene's name or glTF path
+    MethodSetting method;  // stimulus only: how it is rendered
+    PointPx fovea;         // stimulus only: where the foveation is centred
+    std::string text;      // text and question only
 };
 
 enum class TimeSource { predicted, compositor, gpu, simulated };
 
 struct ShownFrame {
-    std::int64_t index = 0;     // counts every frame of the session
-    HostTime display_time;      // when the frame is (predicted to be) seen
+    std::int64_t index = 0;  // counts every frame of the session
+    HostTime display_time;   // when the frame is (predicted to be) seen
     TimeSource time_source = TimeSource::predicted;
-    int missed_vsyncs = 0;      // refreshes since the previous frame beyond the one expected
+    int missed_vsyncs = 0;  // refreshes since the previous frame beyond the one expected
     std::optional<Duration> gpu_time;
     std::optional<std::uint64_t> image_hash;  // of the rendered pixels, where the stage rendered this frame
 };
