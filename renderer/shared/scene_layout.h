@@ -1,0 +1,55 @@
+// Where shaders find the scene: bindings of descriptor set 0, specialization constants, and the lighting
+// block.
+#ifndef PARAFOVEA_SCENE_LAYOUT_H
+#define PARAFOVEA_SCENE_LAYOUT_H
+
+#include "bridge.h"
+
+SHARED_BEGIN
+
+// Bindings of set 0, the scene as shade_sample() reads it. Ray-marched scenes have the first two only.
+const uint kBindCamera = 0u;    // uniform, Camera
+const uint kBindLighting = 1u;  // uniform, Lighting
+const uint kBindGBuffer = 2u;   // usampler2D, see gbuffer.glsl
+const uint kBindDepth = 3u;     // sampler2D, reversed depth
+const uint kBindShadow = 4u;    // sampler2DShadow, the sun's map
+const uint kBindBlended = 5u;   // usampler2D, the nearest blended surface
+const uint kBindBlendedDepth = 6u;
+const uint kBindIrradiance = 7u;   // sampler3D, ambient light in the scene's box
+const uint kBindEnvironment = 8u;  // sampler2D, octahedral radiance of the surroundings, blurrier by level
+const uint kSceneBindings = 9u;
+
+// Specialization constants of the shading shaders. Ids below 64 are free for the methods.
+const uint kConstSunShadow = 64u;   // 1: the sun casts shadows
+const uint kConstBlend = 65u;       // 1: there are blended surfaces
+const uint kConstEmission = 66u;    // 1: the G-buffer's third and fourth words are there
+const uint kConstLights = 67u;      // number of punctual lights
+const uint kConstIrradiance = 68u;  // 1: ambient light varies over the scene
+
+const uint kMaxLights = 64u;
+
+// A point or spot light.
+struct LightRecord {
+    vec4 position;   // w: 1 / range^2, 0 when unlimited
+    vec4 intensity;  // w: 1 for a spot
+    vec4 direction;  // w: cosine offset of the cone, with spot falloff = (cos * scale + offset)^2
+    vec4 cone;       // x: scale
+};
+
+// Uniform block; std140.
+struct Lighting {
+    mat4 shadow_from_world;  // the sun's map: xy texture position, z depth
+    vec4 sun_direction;      // towards the sun; w: exposure
+    vec4 sun_irradiance;     // w: shadow map texel, metres
+    vec4 sky_zenith;         // w: number of environment levels - 1
+    vec4 sky_horizon;
+    vec4 sky_ground;
+    vec4 ambient[9];     // irradiance / pi over the normal, spherical harmonics of degree 2
+    vec4 volume_origin;  // the irradiance volume's corner; w: 1 where there is one
+    vec4 volume_scale;   // 1 / extent
+    LightRecord lights[64];
+};
+
+SHARED_END
+
+#endif
