@@ -1,0 +1,113 @@
+// One participant's session on disk: an SQLite file that survives a crash at any moment.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "devices/time.h"
+#include "study/protocol.h"
+#include "study/trial_plan.h"
+#include "study/trial_record.h"
+
+namespace parafovea {
+
+// Who, where and with what: stored once, when the file is created.
+struct SessionFacts {
+    std::string uuid;         // see make_uuid
+    std::string participant;  // a pseudonym
+    std::string program_version;
+    std::string display;  // descriptions of the devices
+    std::string gaze_source;
+    std::string controller;
+    std::string device;  // what renders, and its driver
+    std::string driver;
+    double refresh_hz = 0;                     // the stage's real rate
+    bool simulated_people = false;             // answers and gaze come from a simulated participant
+    std::map<std::string, std::string> other;  // anything else worth keeping, by name
+};
+
+// The same moment on the host's monotonic clock and on the wall clock (UTC, ns since 1970).
+struct ClockAnchor {
+    HostTime host;
+    std::int64_t wall_ns = 0;
+};
+ClockAnchor read_clock_anchor(HostTime now);
+
+// Version 4, from the system's randomness.
+std::string make_uuid();
+
+// What is left of a session after a crash: enough to go on.
+struct ShownTrial {
+    int number = 0;
+    int attempt = 0;
+    bool answered = false;
+    bool identical = false;
+    bool valid = false;
+    bool interrupted = false;
+    bool superseded = false;  // its block was started over
+};
+
+struct CalibrationPoint {
+    DirectionDeg target;
+    std::optional<DirectionDeg> measured;  // mean direction; absent where no sample was valid
+    int samples = 0, valid_samples = 0;
+    std::optional<double> accuracy_deg, precision_rms_deg, precision_sd_deg;
+};
+struct CalibrationRecord {
+    std::string method;  // who calibrated, e.g. "device", "validation only"
+    HostTime started, ended;
+    bool accepted = false;
+    std::optional<double> mean_accuracy_deg, worst_accuracy_deg, data_loss_share;
+    std::vector<CalibrationPoint> points;
+};
+
+// Every call returns at once: a thread of its own writes, one transaction a call, durable (synchronous =
+// FULL) when wait_until_durable returns or durable() is true. A failure of the disk is thrown, as one clear
+// line, from the next call. Files are readable by their owner alone. A second process is refused the same
+// file.
+class SessionLog {
+  public:
+    // Stores protocol, facts and the whole plan, durable on return. Throws if the file exists or cannot be
+    // made.
+    static SessionLog create(const std::filesystem::path& path, const SessionFacts& facts,
+                             const Protocol& protocol, const TrialPlan& plan, ClockAnchor anchor);
+
+    // Opens a file to go on with. Throws where it is missing, damaged, from a newer program, or in use.
+    static SessionLog open_to_resume(const std::filesystem::path& path, ClockAnchor anchor);
+
+    SessionLog(SessionLog&&) noexcept;
+    ~SessionLog();  // writes what is queued
+
+    // Stored state, as of opening.
+    const Protocol& protocol() const;
+    const TrialPlan& plan() const;
+    const std::vector<ShownTrial>& shown_before() const;  // oldest first
+    double age_h() const;  // since the last answer before opening; 0 if just created
+
+    // The record of one trial with its frames, gaze, events and answer, in one transaction.
+    void append(TrialRecord record);
+
+    void append_calibration(CalibrationRecord record);
+    void append_event(HostTime time, std::string kind,
+                      std::string detail);              // "rest", "pause", "resume", "abort", ...
+    void append_note(HostTime time, std::string text);  // the operator's words
+    void append_flag(int trial_number, std::string kind, std::string detail);
+    void append_questionnaire(HostTime time, std::string name, std::map<std::string, std::string> answers);
+    void supersede_session(int session);  // its trials so far no longer count; they stay in the file
+    void finish(HostTime time);           // the session is complete
+
+    bool durable();             // everything appended so far is on the disk
+    void wait_until_durable();  // throws what the disk said
+
+  private:
+    struct State;
+    explicit SessionLog(std::unique_ptr<State> state);
+    std::unique_ptr<State> state_;
+};
+
+}  // namespace parafovea
