@@ -1,0 +1,26 @@
+// parafovea analyze: from session files or a responses CSV to the figure, the table and the report.
+#include <cstdio>
+
+#include "analysis/write_analysis.h"
+#include "app/commands.h"
+#include "app/session_responses.h"
+
+namespace parafovea {
+
+AnalyzeCommand::AnalyzeCommand(CLI::App& program) {
+    CLI::App* command =
+        program.add_subcommand("analyze", "Make Figure 10, Table 1 and a report from session files or a responses CSV");
+    command->footer("Example: parafovea analyze demo_study --out results");
+    command->add_option("inputs", inputs_, "Session files, folders of them, or a responses CSV")->required();
+    command->add_option("--out", out_, "Folder for the results")->required();
+    command->callback([this] { run(); });
+}
+
+void AnalyzeCommand::run() const {
+    const StudyData data = read_study_data(inputs_);
+    const AnalysisFiles files = write_analysis(data.responses, data.description, out_);
+    std::printf("%s\nfigure  %s\ntable   %s\nreport  %s\n", table1_text(data.responses, data.description).c_str(),
+                files.figure.c_str(), files.table.c_str(), files.report.c_str());
+}
+
+}  // namespace parafovea

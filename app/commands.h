@@ -1,0 +1,100 @@
+// The subcommands of the program: each holds its options, adds itself to the command line and can be run.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace parafovea {
+
+class PlanCommand {
+  public:
+    explicit PlanCommand(CLI::App& program);
+
+  private:
+    void run() const;
+
+    std::string protocol_, participant_;
+    std::uint64_t seed_ = 0;
+};
+
+class CheckCommand {
+  public:
+    explicit CheckCommand(CLI::App& program);
+
+  private:
+    void run() const;
+
+    std::string protocol_;
+};
+
+class SimulateCommand {
+  public:
+    explicit SimulateCommand(CLI::App& program);
+
+  private:
+    void run() const;
+
+    std::string protocol_, out_;
+    int participants_ = 0;
+    std::uint64_t seed_ = 0;
+    bool quiet_ = false;
+};
+
+class AnalyzeCommand {
+  public:
+    explicit AnalyzeCommand(CLI::App& program);
+
+  private:
+    void run() const;
+
+    std::vector<std::string> inputs_;
+    std::string out_;
+};
+
+// The options that say how a picture is foveated, common to several commands.
+struct FoveationOptions {
+    double sigma = 1.8;
+    double alpha = 4;
+    std::string kernel = "power";
+    std::string gaze;  // "X,Y" in pixels; empty: the centre
+    bool as_printed = false;
+
+    void add_to(CLI::App& command);
+};
+
+class RenderCommand {
+  public:
+    explicit RenderCommand(CLI::App& program);
+
+  private:
+    void run() const;
+
+    std::string scene_, method_ = "kfr", size_ = "1280x720", out_, stats_;
+    FoveationOptions foveation_;
+    bool no_culling_ = false;
+    bool post_filter_ = false;
+};
+
+class FoveateCommand {
+  public:
+    explicit FoveateCommand(CLI::App& program);
+
+  private:
+    void run() const;
+
+    std::string in_, out_;
+    FoveationOptions foveation_;
+    bool no_filters_ = false;
+};
+
+class ScenesCommand {
+  public:
+    explicit ScenesCommand(CLI::App& program);
+
+  private:
+    void run() const;
+};
+
+}  // namespace parafovea

@@ -1,0 +1,40 @@
+// Reads the small notations of the command line.
+#include "app/options.h"
+
+#include <CLI/CLI.hpp>
+#include <charconv>
+#include <string_view>
+
+namespace parafovea {
+
+namespace {
+
+// The two numbers around `separator`, or false.
+template <typename Number>
+bool read_pair(std::string_view text, char separator, Number& first, Number& second) {
+    const std::size_t at = text.find(separator);
+    if (at == std::string_view::npos) return false;
+    const auto whole = [](std::string_view part, Number& value) {
+        const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), value);
+        return error == std::errc() && end == part.data() + part.size();
+    };
+    return whole(text.substr(0, at), first) && whole(text.substr(at + 1), second);
+}
+
+}  // namespace
+
+SizePx parse_size(const std::string& text) {
+    SizePx size;
+    if (!read_pair(text, 'x', size.width, size.height) || size.width < 1 || size.height < 1)
+        throw CLI::ValidationError("--size", "expected WIDTHxHEIGHT in pixels such as 1280x720, found '" + text + "'");
+    return size;
+}
+
+PointPx parse_point(const std::string& text) {
+    PointPx point;
+    if (!read_pair(text, ',', point.x, point.y))
+        throw CLI::ValidationError("--gaze", "expected X,Y in pixels such as 640,360, found '" + text + "'");
+    return point;
+}
+
+}  // namespace parafovea

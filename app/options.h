@@ -1,0 +1,16 @@
+// Reads the small notations of the command line: WxH, X,Y.
+#pragma once
+
+#include <string>
+
+#include "devices/geometry.h"
+
+namespace parafovea {
+
+// "1280x720"; throws CLI::ValidationError otherwise.
+SizePx parse_size(const std::string& text);
+
+// "640,360.5", in pixels from the top left corner; throws CLI::ValidationError otherwise.
+PointPx parse_point(const std::string& text);
+
+}  // namespace parafovea

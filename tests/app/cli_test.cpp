@@ -1,0 +1,172 @@
+// The program from outside: exit codes, one clear line for each thing that cannot go on, and files that others read.
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <array>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Run {
+    int exit_code = -1;
+    std::string out;     // standard output
+    std::string errors;  // standard error
+};
+
+std::string contents(const fs::path& path) {
+    std::ifstream file(path);
+    std::ostringstream text;
+    text << file.rdbuf();
+    return text.str();
+}
+
+// A folder of this test's own, gone afterwards; and runs of the program in it.
+class Cli : public testing::Test {
+  protected:
+    void SetUp() override {
+        std::string pattern = (fs::temp_directory_path() / "parafovea_cli_XXXXXX").string();
+        ASSERT_NE(mkdtemp(pattern.data()), nullptr);
+        folder_ = pattern;
+    }
+    void TearDown() override {
+        fs::permissions(folder_, fs::perms::owner_all);
+        fs::remove_all(folder_);
+    }
+
+    Run run(const std::string& arguments, const std::string& environment = "") const {
+        const fs::path errors = folder_ / "stderr.txt";
+        const std::string command = "cd '" + folder_.string() + "' && " + environment + " " + PARAFOVEA_PROGRAM + " " +
+                                    arguments + " 2>'" + errors.string() + "'";
+        Run result;
+        FILE* pipe = popen(command.c_str(), "r");
+        std::array<char, 4096> buffer;
+        for (std::size_t n; (n = fread(buffer.data(), 1, buffer.size(), pipe)) > 0;) result.out.append(buffer.data(), n);
+        const int status = pclose(pipe);
+        result.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+        result.errors = contents(errors);
+        return result;
+    }
+
+    fs::path write(const std::string& name, const std::string& text) const {
+        std::ofstream(folder_ / name) << text;
+        return folder_ / name;
+    }
+
+    fs::path folder_;
+};
+
+// Exit 1 and exactly one line, holding every one of the parts.
+void expect_one_line(const Run& result, const std::vector<std::string>& parts) {
+    EXPECT_EQ(result.exit_code, 1) << result.errors;
+    EXPECT_EQ(std::count(result.errors.begin(), result.errors.end(), '\n'), 1) << result.errors;
+    for (const std::string& part : parts)
+        EXPECT_NE(result.errors.find(part), std::string::npos) << "missing \"" << part << "\" in: " << result.errors;
+}
+
+std::string protocol(const std::string& name) { return contents(fs::path(PARAFOVEA_SOURCE_DIR) / "protocols" / name); }
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+    const std::size_t at = text.find(from);
+    EXPECT_NE(at, std::string::npos) << from;
+    return at == std::string::npos ? text : text.replace(at, from.size(), to);
+}
+
+TEST_F(Cli, WrongUsageExitsWithTwo) {
+    EXPECT_EQ(run("").exit_code, 2);
+    EXPECT_EQ(run("no-such-command").exit_code, 2);
+    EXPECT_EQ(run("render --scene primitives --size 12by7 --out a.png").exit_code, 2);
+}
+
+TEST_F(Cli, EverySubcommandHasHelpWithAnExample) {
+    for (const char* command : {"simulate", "analyze", "plan", "check", "render", "foveate", "scenes"}) {
+        const Run result = run(std::string(command) + " --help");
+        EXPECT_EQ(result.exit_code, 0) << command;
+        EXPECT_NE(result.out.find("Example: parafovea " + std::string(command)), std::string::npos) << command;
+    }
+}
+
+TEST_F(Cli, AMisspeltProtocolKeyIsOneLineWithFileAndLine) {
+    write("study.toml", replaced(protocol("final.toml"), "interval_s", "intervall_s"));
+    // The misspelt key is a mistake of its own, the missing one another; each is a line of its own.
+    const Run result = run("check study.toml");
+    EXPECT_EQ(result.exit_code, 1);
+    EXPECT_NE(result.errors.find("study.toml:"), std::string::npos) << result.errors;
+    EXPECT_NE(result.errors.find("intervall_s"), std::string::npos) << result.errors;
+}
+
+TEST_F(Cli, AMissingSceneIsOneLine) {
+    expect_one_line(run("render --scene no_such_scene.glb --out a.png"), {"no_such_scene.glb"});
+}
+
+TEST_F(Cli, AnUnreadableCsvRowIsOneLineWithItsNumber) {
+    write("answers.csv", "participant,session,sigma,alpha,identical\nP01,1,1.2,1,1\nP01,1,1.2,two,1\n");
+    expect_one_line(run("analyze answers.csv --out results"), {"answers.csv:3", "two"});
+}
+
+TEST_F(Cli, NoVulkanDeviceIsOneLine) {
+    expect_one_line(run("render --scene primitives --size 64x64 --out a.png", "VK_ICD_FILENAMES=/nowhere.json VK_DRIVER_FILES=/nowhere.json"),
+                    {"Vulkan"});
+}
+
+TEST_F(Cli, AnUnwritableFolderIsOneLine) {
+    write("answers.csv", "participant,session,sigma,alpha,identical\nP01,1,1.2,1,1\nP01,1,1.2,2,0\n");
+    write("blocked", "a file where a folder should be");
+    expect_one_line(run("analyze answers.csv --out blocked/results"), {"blocked"});
+}
+
+TEST_F(Cli, AMissingInputIsOneLine) { expect_one_line(run("analyze nowhere.sqlite --out results"), {"nowhere.sqlite"}); }
+
+TEST_F(Cli, AParticipantWithoutANumberIsOneLine) {
+    write("study.toml", protocol("final.toml"));
+    expect_one_line(run("plan study.toml --participant anna --seed 1"), {"anna", "P01"});
+}
+
+TEST_F(Cli, ThePlanIsTheSameForTheSameSeedAndAnotherForAnotherSeed) {
+    write("study.toml", protocol("final.toml"));
+    const std::string once = run("plan study.toml --participant P03 --seed 7").out;
+    EXPECT_EQ(once, run("plan study.toml --participant P03 --seed 7").out);
+    EXPECT_NE(once, run("plan study.toml --participant P03 --seed 8").out);
+    EXPECT_EQ(std::count(once.begin(), once.end(), '\n'), 1 + 5 + 2 * 40);
+}
+
+TEST_F(Cli, RenderWritesItsStatistics) {
+    const Run result =
+        run("render --scene primitives --method kfr --sigma 1.8 --alpha 4 --size 320x180 --out a.png --stats a.json");
+    ASSERT_EQ(result.exit_code, 0) << result.errors;
+    EXPECT_GT(fs::file_size(folder_ / "a.png"), 1000u);
+    const auto stats = nlohmann::json::parse(contents(folder_ / "a.json"));
+    EXPECT_EQ(stats.at("width"), 320);
+    EXPECT_EQ(stats.at("height"), 180);
+    EXPECT_EQ(stats.at("buffer_width"), 178);
+    EXPECT_EQ(stats.at("buffer_height"), 100);
+    EXPECT_EQ(stats.at("screen_pixels"), 320 * 180);
+    EXPECT_GT(stats.at("shaded_samples"), 0);
+    EXPECT_LT(stats.at("shaded_samples"), 0.31 * 320 * 180);
+    EXPECT_TRUE(stats.at("passes_ms").contains("total"));
+    EXPECT_TRUE(stats.at("built").is_array());
+    EXPECT_TRUE(stats.at("left_out").is_array());
+    EXPECT_FALSE(stats.at("device").get<std::string>().empty());
+    EXPECT_FALSE(stats.at("driver").get<std::string>().empty());
+}
+
+TEST_F(Cli, AnalyzeReproducesThePublishedTable) {
+    const fs::path table = fs::path(PARAFOVEA_SHARED_DIR) / "data" / "table1_consistent_responses.csv";
+    if (!fs::exists(table)) GTEST_SKIP() << table << " is not here";
+    const Run result = run("analyze '" + table.string() + "' --out results");
+    ASSERT_EQ(result.exit_code, 0) << result.errors;
+    for (const char* name : {"figure10.svg", "figure10.png", "figure10.pdf", "figure10.csv", "table1.csv", "table1.md", "report.html"})
+        EXPECT_TRUE(fs::exists(folder_ / "results" / name)) << name;
+    for (const char* q : {"1.72", "5.79", "8.20", "8.25", "7.49", "14.27", "5.48"})
+        EXPECT_NE(result.out.find(q), std::string::npos) << q << " in\n" << result.out;
+}
+
+}  // namespace
