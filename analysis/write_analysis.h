@@ -19,7 +19,8 @@ struct AnalysisFiles {
 };
 
 // Analyses the responses and writes the files into out, which is made if absent.
-// Throws std::runtime_error when there is no countable response, out cannot be written or gnuplot cannot be run.
+// Throws std::runtime_error when there is no countable response, out cannot be written or gnuplot cannot be
+// run.
 AnalysisFiles write_analysis(std::span<const Response> responses, const StudyDescription& study,
                              const std::filesystem::path& out);
 

@@ -1,0 +1,209 @@
+// The distribution of sum C_j^2 over all arrangements of a 0/1 table with given row totals, counted or drawn.
+#include "analysis/cochran_exact.h"
+
+#include <algorithm>
+#include <bit>
+#include <cassert>
+#include <numeric>
+#include <vector>
+
+#include "analysis/random_draw.h"
+
+namespace parafovea {
+namespace {
+
+constexpr std::size_t kMostColumns = 20;
+constexpr std::int64_t kMostStates = 4'000'000;
+constexpr std::int64_t kMostDrawnCells = 400'000'000;
+
+// One way to add a row of ones to sorted totals: which positions grow, and how many arrangements of the row
+// do just that.
+struct Move {
+    std::uint32_t positions;
+    double share;
+};
+
+// Within a run of equal totals only the number of ones matters, so they go to the run's first positions; ties
+// says which totals equal their predecessor.
+std::vector<Move> moves_for(std::uint32_t ties, int ones, int columns) {
+    std::vector<Move> moves;
+    std::vector<int> run_start, run_length;
+    for (int j = 0; j < columns; ++j) {
+        if (j > 0 && (ties >> j & 1u)) {
+            ++run_length.back();
+        } else {
+            run_start.push_back(j);
+            run_length.push_back(1);
+        }
+    }
+    const auto choose = [](int n, int r) {
+        double value = 1.0;
+        for (int i = 1; i <= r; ++i) value = value * (n - r + i) / i;
+        return value;
+    };
+    const double all = choose(columns, ones);
+    const auto place = [&](auto&& self, std::size_t run, int left, std::uint32_t positions,
+                           double ways) -> void {
+        if (run == run_start.size()) {
+            if (left == 0) moves.push_back({positions, ways / all});
+            return;
+        }
+        for (int take = 0; take <= std::min(left, run_length[run]); ++take)
+            self(self, run + 1, left - take, positions | ((1u << take) - 1u) << run_start[run],
+                 ways * choose(run_length[run], take));
+    };
+    place(place, 0, ones, 0, 1.0);
+    return moves;
+}
+
+// Column totals in falling order are numbered without gaps by the combinatorial number system, so that a
+// plain array holds their shares: rank(c_0 >= c_1 >= ...) = sum_i C(c_i + k - 2 - i, k - 1 - i) over the
+// first k - 1; the last is implied.
+class Ranks {
+  public:
+    Ranks(int columns, int most) : columns_(columns), most_(most) {
+        step_.resize(static_cast<std::size_t>(columns) * static_cast<std::size_t>(most + 1));
+        for (int i = 0; i + 1 < columns; ++i)
+            for (int c = 0; c <= most; ++c) step_[index(i, c)] = choose(c + columns - 2 - i, columns - 2 - i);
+    }
+    // How the rank grows when the total at position i grows from c to c + 1.
+    std::int64_t step(int i, int c) const { return i + 1 < columns_ ? step_[index(i, c)] : 0; }
+
+    static std::int64_t choose(int n, int r) {
+        double value = 1.0;
+        for (int i = 1; i <= r; ++i) value = value * (n - r + i) / i;
+        return value > 9e15 ? std::int64_t{1} << 53 : static_cast<std::int64_t>(value + 0.5);
+    }
+
+  private:
+    std::size_t index(int i, int c) const {
+        return static_cast<std::size_t>(i) * static_cast<std::size_t>(most_ + 1) +
+               static_cast<std::size_t>(c);
+    }
+    int columns_;
+    int most_;
+    std::vector<std::int64_t> step_;
+};
+
+}  // namespace
+
+std::optional<ArrangementShares> enumerate_column_totals(std::span<const std::int64_t> rows_with_total,
+                                                         std::int64_t observed, std::int64_t work_limit) {
+    assert(rows_with_total.size() >= 2);
+    const std::size_t k = rows_with_total.size() - 1;
+    const std::int64_t rows =
+        std::accumulate(rows_with_total.begin(), rows_with_total.end(), std::int64_t{0});
+    if (k > kMostColumns || rows > 10'000) return std::nullopt;
+    const int columns = static_cast<int>(k), most = static_cast<int>(rows);
+    const std::int64_t states = Ranks::choose(most + columns - 1, columns - 1);
+    if (states > kMostStates) return std::nullopt;
+    const Ranks ranks(columns, most);
+
+    // A state is its totals (k numbers in `totals`) and its share (in `share`, by rank).
+    std::vector<double> share(static_cast<std::size_t>(states), 0.0), next_share(share.size(), 0.0);
+    std::vector<std::uint16_t> totals(k, 0), next_totals;
+    std::vector<std::size_t> rank_of{0}, next_rank_of;
+    share[0] = 1.0;
+
+    // Rows with few or many ones spread the states least, so they come first.
+    std::vector<std::size_t> order(k + 1);
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::sort(order.begin(), order.end(),
+              [&](std::size_t a, std::size_t b) { return std::min(a, k - a) < std::min(b, k - b); });
+    std::int64_t work = 0;
+    for (std::size_t ones : order) {
+        if (rows_with_total[ones] == 0 || ones == 0) continue;
+        std::vector<std::vector<Move>> moves(std::size_t{1} << k);
+        for (std::int64_t repeat = 0; repeat < rows_with_total[ones]; ++repeat) {
+            next_totals.clear();
+            next_rank_of.clear();
+            for (std::size_t state = 0; state < rank_of.size(); ++state) {
+                const std::uint16_t* c = &totals[state * k];
+                const std::size_t rank = rank_of[state];
+                const double weight = share[rank];
+                share[rank] = 0.0;
+                std::int64_t step[kMostColumns];
+                std::uint32_t ties = 0;
+                for (int j = 0; j < columns; ++j) {
+                    step[j] = ranks.step(j, c[j]);
+                    if (j > 0 && c[j] == c[j - 1]) ties |= 1u << j;
+                }
+                if (moves[ties].empty()) moves[ties] = moves_for(ties, static_cast<int>(ones), columns);
+                work += static_cast<std::int64_t>(moves[ties].size());
+                if (work > work_limit) return std::nullopt;
+                for (const Move& move : moves[ties]) {
+                    std::int64_t to = static_cast<std::int64_t>(rank);
+                    for (std::uint32_t bits = move.positions; bits != 0; bits &= bits - 1)
+                        to += step[std::countr_zero(bits)];
+                    const double arriving = weight * move.share;
+                    if (arriving == 0.0) continue;  // below 1e-308 of all arrangements
+                    double& target = next_share[static_cast<std::size_t>(to)];
+                    if (target == 0.0) {
+                        next_rank_of.push_back(static_cast<std::size_t>(to));
+                        for (std::size_t j = 0; j < k; ++j)
+                            next_totals.push_back(
+                                static_cast<std::uint16_t>(c[j] + (move.positions >> j & 1u)));
+                    }
+                    target += arriving;
+                }
+            }
+            share.swap(next_share);
+            totals.swap(next_totals);
+            rank_of.swap(next_rank_of);
+        }
+    }
+
+    ArrangementShares result;
+    for (std::size_t state = 0; state < rank_of.size(); ++state) {
+        std::int64_t squares = 0;
+        for (std::size_t j = 0; j < k; ++j)
+            squares += static_cast<std::int64_t>(totals[state * k + j]) * totals[state * k + j];
+        const double weight = share[rank_of[state]];
+        result.mean += weight * static_cast<double>(squares);
+        if (squares >= observed) result.at_least += weight;
+        if (squares == observed) result.equal += weight;
+    }
+    return result;
+}
+
+std::optional<ArrangementDraws> draw_column_totals(std::span<const std::int64_t> rows_with_total,
+                                                   std::int64_t observed, std::int64_t draws,
+                                                   std::uint64_t seed) {
+    assert(rows_with_total.size() >= 2);
+    const std::size_t k = rows_with_total.size() - 1;
+    std::int64_t cells_per_draw = 0;
+    for (std::size_t ones = 1; ones < k; ++ones)
+        cells_per_draw += rows_with_total[ones] * static_cast<std::int64_t>(std::min(ones, k - ones));
+    ArrangementDraws result;
+    result.draws = std::min(draws, kMostDrawnCells / std::max<std::int64_t>(1, cells_per_draw));
+    if (result.draws < std::min<std::int64_t>(draws, 999)) return std::nullopt;
+
+    std::mt19937_64 generator(seed);
+    std::vector<std::size_t> column(k);
+    std::iota(column.begin(), column.end(), std::size_t{0});
+    std::vector<std::int64_t> totals(k);
+    for (std::int64_t draw = 0; draw < result.draws; ++draw) {
+        std::fill(totals.begin(), totals.end(), rows_with_total[k]);
+        for (std::size_t ones = 1; ones < k; ++ones) {
+            // Draw the rarer of ones and zeros, without replacement.
+            const bool draw_ones = ones <= k - ones;
+            const std::size_t picks = draw_ones ? ones : k - ones;
+            if (!draw_ones)
+                for (std::int64_t& total : totals) total += rows_with_total[ones];
+            for (std::int64_t row = 0; row < rows_with_total[ones]; ++row) {
+                for (std::size_t i = 0; i < picks; ++i) {
+                    std::swap(column[i],
+                              column[i + draw_below(generator, static_cast<std::uint32_t>(k - i))]);
+                    totals[column[i]] += draw_ones ? 1 : -1;
+                }
+            }
+        }
+        std::int64_t squares = 0;
+        for (std::int64_t total : totals) squares += total * total;
+        result.at_least += squares >= observed ? 1 : 0;
+        result.equal += squares == observed ? 1 : 0;
+    }
+    return result;
+}
+
+}  // namespace parafovea
