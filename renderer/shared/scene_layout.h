@@ -25,6 +25,9 @@ const uint kConstBlend = 65u;       // 1: there are blended surfaces
 const uint kConstEmission = 66u;    // 1: the G-buffer's third and fourth words are there
 const uint kConstLights = 67u;      // number of punctual lights
 const uint kConstIrradiance = 68u;  // 1: ambient light varies over the scene
+const uint kConstFootprint =
+    69u;                         // 1: textures and highlights are filtered over spacing_px, 0: over one pixel
+const uint kConstSamples = 70u;  // ray-marched: samples of one shade_sample()
 
 const uint kMaxLights = 64u;
 

@@ -1,0 +1,171 @@
+// shade_sample() of the ray-marched scene: sphere tracing through the solids, the court in closed form, soft shadows,
+// ambient occlusion, one mirrored look at the court.
+#ifndef SHADING_PRIMITIVES_GLSL
+#define SHADING_PRIMITIVES_GLSL
+
+#include "primitives_field.glsl"
+#include "primitives_court.glsl"
+
+layout(constant_id = kConstFootprint) const uint kUseFootprint = 1u;
+layout(constant_id = kConstSamples) const uint kSamples = 1u;
+
+// Sphere tracing (Hart 1996) from span.x to span.y; negative when nothing is met. Four steps a turn, because loops cost
+// more than their bodies on some devices.
+float trace_solids(vec3 from, vec3 direction, vec2 span, float cone) {
+    float t = span.x;
+    float found = -1.0;
+    for (int turn = 0; turn < 20 && found < 0.0 && t < span.y; ++turn) {
+        float d0 = field(from + t * direction);
+        found = d0 < cone * t ? t : found;
+        t += d0;
+        float d1 = field(from + t * direction);
+        found = found < 0.0 && d1 < cone * t ? t : found;
+        t += d1;
+        float d2 = field(from + t * direction);
+        found = found < 0.0 && d2 < cone * t ? t : found;
+        t += d2;
+    }
+    return found;
+}
+
+// Share of a sun of finite size that is seen past the solids (the nearest miss, seen as an angle).
+float sun_past_solids(vec3 from, vec3 to_sun) {
+    const float kSunTangent = 0.035;
+    vec2 span = solids_span(from, to_sun, 0.1);
+    float share = 1.0;
+    float t = max(span.x, 0.02);
+    for (int turn = 0; turn < 12 && share > -1.0 && t < span.y; ++turn) {
+        float d0 = field(from + t * to_sun);
+        share = min(share, d0 / (kSunTangent * t));
+        t += clamp(d0, 0.015, 0.6);
+        float d1 = field(from + t * to_sun);
+        share = min(share, d1 / (kSunTangent * t));
+        t += clamp(d1, 0.015, 0.6);
+    }
+    share = clamp(share, -1.0, 1.0);
+    return 0.25 * (1.0 + share) * (1.0 + share) * (2.0 - share);
+}
+
+float court_distance(vec3 p) {
+    return min(p.y, min(kSideWall - abs(p.x), p.z - kBackWall));
+}
+
+// Share of the hemisphere that is open (after Evans 2006): distances to the nearest surface at four heights.
+float openness(vec3 point, vec3 normal) {
+    float blocked = 0.0;
+    float weight = 1.0;
+    for (int i = 1; i <= 4; ++i) {
+        float height = 0.06 * float(i * i);
+        vec3 p = point + height * normal;
+        float d = min(field(p), court_distance(p));
+        blocked += weight * max(height - d, 0.0);
+        weight *= 0.6;
+    }
+    return clamp(1.0 - 1.1 * blocked, 0.0, 1.0);
+}
+
+vec3 field_normal(vec3 p, float step_m) {
+    const vec2 k = vec2(1.0, -1.0);
+    return normalize(k.xyy * field(p + k.xyy * step_m) + k.yyx * field(p + k.yyx * step_m) +
+                     k.yxy * field(p + k.yxy * step_m) + k.xxx * field(p + k.xxx * step_m));
+}
+
+vec3 patterned(Solid solid, vec3 p, float footprint_m) {
+    vec3 color = solid.base_color;
+    if (solid.pattern > 2.5) {
+        float warp = value_noise(p.xz * 4.0 + p.y) + value_noise(p.xy * 4.3 - p.z);
+        float vein = abs(value_noise(vec2(p.x + p.z, p.y) * 5.0 + warp * 1.5) - 0.5);
+        float veins = mix(0.2, clamp(1.0 - 8.0 * vein, 0.0, 1.0), kept(footprint_m, 0.1));
+        return color * (1.0 - 0.75 * veins);
+    }
+    if (solid.pattern > 1.5) {
+        float width = max(footprint_m / 0.11, 1e-3);
+        return color * (1.0 + 0.45 * checks((p.y + 0.25 * p.x) / 0.11, width));
+    }
+    if (solid.pattern > 0.5) {
+        float width = max(footprint_m / 0.16, 1e-3);
+        vec3 q = p / 0.16 + 0.21;
+        float sign_product = checks(q.x, width) * checks(q.y, width) * checks(q.z, width);
+        return mix(color, color * 0.15 + 0.75, 0.5 + 0.5 * sign_product);
+    }
+    return color;
+}
+
+vec3 lit_court(CourtHit hit, vec3 point, vec3 direction, float footprint_m, float sun, float open) {
+    Masonry m = masonry_at(hit, point, direction, footprint_m);
+    Surface s;
+    s.normal = normalize(hit.normal + m.tilt.x * hit.along_u + m.tilt.y * hit.along_v);
+    s.base_color = m.base_color;
+    s.metallic = 0.0;
+    s.roughness = m.roughness;
+    vec3 to_eye = -direction;
+    vec3 mirrored = sky_reflection(reflect(direction, s.normal), m.roughness) * open;
+    return ambient_reflected(s, to_eye, ambient_light(s.normal) * open, mirrored) +
+           reflected(s, to_eye, lighting.sun_direction.xyz) * lighting.sun_irradiance.rgb * sun;
+}
+
+// How far down a wall or out on the floor the sky is hidden by the court itself.
+float court_openness(vec3 point) {
+    float depth = clamp(point.y / kWallHeight, 0.0, 1.0);
+    float corner = clamp(0.35 * min(kSideWall - abs(point.x), point.z - kBackWall) + 0.25, 0.0, 1.0);
+    return mix(0.45, 1.0, depth) * mix(0.8, 1.0, corner);
+}
+
+vec3 radiance_along(vec3 from, vec3 direction, float cone) {
+    CourtHit court = meet_court(from, direction);
+    vec2 span = solids_span(from, direction, 0.0);
+    span.y = min(span.y, court.distance > 0.0 ? court.distance : 1e9);
+    float solid_at_m = trace_solids(from, direction, span, max(0.35 * cone, 2e-4));
+    bool on_solid = solid_at_m > 0.0;
+    float distance = on_solid ? solid_at_m : court.distance;
+    if (distance < 0.0) return sky_with_sun(direction);
+
+    vec3 point = from + distance * direction;
+    vec3 normal = on_solid ? field_normal(point, max(5e-4, 0.25 * cone * distance)) : court.normal;
+    float footprint_m = cone * distance;
+    vec3 to_sun = lighting.sun_direction.xyz;
+    vec3 lifted = point + normal * 0.006;
+    float sun = dot(normal, to_sun) > 0.0 ? sun_over_walls(lifted, to_sun) * sun_past_solids(lifted, to_sun) : 0.0;
+    float open = openness(point, normal) * court_openness(point);
+    if (!on_solid) return lit_court(court, point, direction, footprint_m, sun, open);
+
+    Solid solid = solid_at(point);
+    Surface s;
+    s.normal = normal;
+    s.base_color = patterned(solid, point, footprint_m);
+    s.metallic = solid.metallic_roughness.x;
+    s.roughness = solid.metallic_roughness.y;
+    vec3 to_eye = -direction;
+
+    // Look once along the mirrored ray: the court there, unshadowed by the solids, or the sky.
+    vec3 mirror = reflect(direction, normal);
+    CourtHit seen = meet_court(lifted, mirror);
+    vec3 mirrored = sky_with_sun(mirror);
+    if (seen.distance > 0.0) {
+        vec3 seen_point = lifted + seen.distance * mirror;
+        float blur = footprint_m + (cone + 0.9 * s.roughness * s.roughness) * seen.distance;
+        mirrored = lit_court(seen, seen_point, mirror, blur, sun_over_walls(seen_point, to_sun), court_openness(seen_point));
+    }
+    // The court also sends light up and across: the floor's share of the hemisphere.
+    vec3 ambient = ambient_light(normal) * open;
+    return ambient_reflected(s, to_eye, ambient, mirrored * mix(1.0, open, 0.7)) +
+           reflected(s, to_eye, to_sun) * lighting.sun_irradiance.rgb * sun;
+}
+
+vec3 shade_sample(vec2 position_px, vec2 spacing_px) {
+    vec3 sum = vec3(0.0);
+    float spread = kUseFootprint == 1u ? clamp(sqrt(spacing_px.x * spacing_px.y), 1.0, 64.0) : 1.0;
+    for (uint i = 0u; i < kSamples; ++i) {
+        // Points of the R2 sequence around the position; one sample stands in the middle.
+        vec2 offset = kSamples == 1u ? vec2(0.0) : fract(vec2(0.7548776662, 0.5698402910) * float(i) + 0.5) - 0.5;
+        vec2 at = position_px + offset * spread;
+        vec3 direction = camera.ray_origin.xyz + at.x * camera.ray_per_px_x.xyz + at.y * camera.ray_per_px_y.xyz;
+        float stretch = length(direction);
+        // The angle that the sample spans shrinks away from the picture's centre.
+        float cone = spread * length(camera.ray_per_px_x.xyz) / (stretch * sqrt(stretch));
+        sum += tone_mapped(radiance_along(camera.eye.xyz, direction / stretch, cone));
+    }
+    return sum / float(kSamples);
+}
+
+#endif
