@@ -1,4 +1,5 @@
-// The host's monotonic clock, real or simulated. All waiting goes through it, so a session can run without time passing.
+// The host's monotonic clock, real or simulated. All waiting goes through it, so a session can run without
+// time passing.
 #pragma once
 
 #include "devices/time.h"

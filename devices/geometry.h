@@ -22,7 +22,9 @@ struct PointPx {
     bool operator==(const PointPx&) const = default;
 };
 
-constexpr PointPx centre_of(SizePx size) { return {size.width * 0.5, size.height * 0.5}; }
+constexpr PointPx centre_of(SizePx size) {
+    return {size.width * 0.5, size.height * 0.5};
+}
 
 // A direction from the eye in Fick angles: azimuth positive to the right, elevation positive up, both zero
 // straight ahead.
@@ -33,8 +35,12 @@ struct DirectionDeg {
     bool operator==(const DirectionDeg&) const = default;
 };
 
-constexpr double rad_from_deg(double deg) { return deg * std::numbers::pi / 180; }
-constexpr double deg_from_rad(double rad) { return rad * 180 / std::numbers::pi; }
+constexpr double rad_from_deg(double deg) {
+    return deg * std::numbers::pi / 180;
+}
+constexpr double deg_from_rad(double rad) {
+    return rad * 180 / std::numbers::pi;
+}
 
 // A flat, square-pixelled picture seen through a symmetric frustum by one eye.
 struct ViewGeometry {

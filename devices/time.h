@@ -20,9 +20,15 @@ struct Duration {
     constexpr auto operator<=>(const Duration&) const = default;
 };
 
-constexpr Duration operator+(Duration a, Duration b) { return {a.ns + b.ns}; }
-constexpr Duration operator-(Duration a, Duration b) { return {a.ns - b.ns}; }
-constexpr Duration operator*(Duration a, std::int64_t n) { return {a.ns * n}; }
+constexpr Duration operator+(Duration a, Duration b) {
+    return {a.ns + b.ns};
+}
+constexpr Duration operator-(Duration a, Duration b) {
+    return {a.ns - b.ns};
+}
+constexpr Duration operator*(Duration a, std::int64_t n) {
+    return {a.ns * n};
+}
 
 // A moment on the host's monotonic clock, nanoseconds since that clock's own epoch.
 struct HostTime {
@@ -31,9 +37,15 @@ struct HostTime {
     constexpr auto operator<=>(const HostTime&) const = default;
 };
 
-constexpr Duration operator-(HostTime a, HostTime b) { return {a.ns - b.ns}; }
-constexpr HostTime operator+(HostTime a, Duration b) { return {a.ns + b.ns}; }
-constexpr HostTime operator-(HostTime a, Duration b) { return {a.ns - b.ns}; }
+constexpr Duration operator-(HostTime a, HostTime b) {
+    return {a.ns - b.ns};
+}
+constexpr HostTime operator+(HostTime a, Duration b) {
+    return {a.ns + b.ns};
+}
+constexpr HostTime operator-(HostTime a, Duration b) {
+    return {a.ns - b.ns};
+}
 
 // A moment on a device's own clock, nanoseconds since that clock's own epoch; comparable to host time only
 // through a clock mapping, and never altered.
@@ -43,7 +55,11 @@ struct DeviceTime {
     constexpr auto operator<=>(const DeviceTime&) const = default;
 };
 
-constexpr Duration operator-(DeviceTime a, DeviceTime b) { return {a.ns - b.ns}; }
-constexpr DeviceTime operator+(DeviceTime a, Duration b) { return {a.ns + b.ns}; }
+constexpr Duration operator-(DeviceTime a, DeviceTime b) {
+    return {a.ns - b.ns};
+}
+constexpr DeviceTime operator+(DeviceTime a, Duration b) {
+    return {a.ns + b.ns};
+}
 
 }  // namespace parafovea
