@@ -10,6 +10,8 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "devices/unit_vector.h"
+
 namespace parafovea {
 namespace {
 
@@ -119,20 +121,6 @@ class Table {
     std::vector<std::string_view> columns_, fields_;
 };
 
-struct Vector {
-    double x, y, z;
-};
-
-Vector unit_vector(DirectionDeg d) {
-    const double azimuth = rad_from_deg(d.azimuth_deg), elevation = rad_from_deg(d.elevation_deg);
-    return {std::cos(elevation) * std::sin(azimuth), std::sin(elevation),
-            std::cos(elevation) * std::cos(azimuth)};
-}
-
-DirectionDeg direction_of(Vector v) {
-    return {deg_from_rad(std::atan2(v.x, v.z)), deg_from_rad(std::atan2(v.y, std::hypot(v.x, v.z)))};
-}
-
 // Sets the cyclopean direction and the status from the eyes.
 void combine_eyes(GazeSample& sample) {
     const auto left = sample.left ? sample.left->direction : std::nullopt;
@@ -185,9 +173,9 @@ void parse_head_mounted(Table& table, GazeRecording& recording) {
         table.fail("the columns x, y, z of an eye's direction do not stand side by side");
     const auto eye = [&](std::size_t x, std::size_t valid) {
         EyeSample sample;
-        const Vector v{table.number(x), table.number(x + 1), table.number(x + 2)};
-        const double length = std::hypot(v.x, v.y, v.z);
-        if (table.text(valid) == "True" && length > 0.5 && length < 2) sample.direction = direction_of(v);
+        const Vector3 v{table.number(x), table.number(x + 1), table.number(x + 2)};
+        const double norm = length(v);
+        if (table.text(valid) == "True" && norm > 0.5 && norm < 2) sample.direction = direction_of(v);
         return sample;
     };
     std::int64_t first_us = 0;
@@ -262,11 +250,6 @@ void put_direction(std::ostream& out, const std::optional<DirectionDeg>& d) {
 }
 
 }  // namespace
-
-DirectionDeg mean_direction(DirectionDeg a, DirectionDeg b) {
-    const Vector va = unit_vector(a), vb = unit_vector(b);
-    return direction_of({va.x + vb.x, va.y + vb.y, va.z + vb.z});
-}
 
 GazeRecording parse_gaze_recording(std::string_view text, const std::string& name,
                                    const RecordedScreen& screen) {

@@ -57,7 +57,4 @@ GazeRecording read_gaze_recording(const std::filesystem::path& path, const Recor
 // Status is tracked, low_accuracy, blink or lost.
 void write_gaze_csv(std::ostream& out, std::span<const GazeSample> samples);
 
-// The direction half way between two: the mean of their unit vectors.
-DirectionDeg mean_direction(DirectionDeg a, DirectionDeg b);
-
 }  // namespace parafovea
