@@ -177,6 +177,8 @@ struct SceneFeatures {
 SceneFeatures features_of(const Scene& scene);
 std::uint64_t triangles_drawn(const Scene& scene);  // every instance counted
 Bounds world_bounds(const Scene& scene);
+Bounds transformed(const Bounds& bounds, const glm::mat4& matrix);  // a box around the transformed box
+SceneCamera camera_looking(glm::vec3 from, glm::vec3 at, float vertical_fov_rad);
 // The camera on the scene's path; time is clamped to the path. The scene must have a path.
 SceneCamera camera_on_path(const Scene& scene, float time_s);
 

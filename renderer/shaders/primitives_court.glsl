@@ -62,7 +62,7 @@ Masonry brickwork(vec2 uv, vec2 footprint) {
     float grain = mix(0.5, value_noise(uv * 26.0), kept(max(footprint.x, footprint.y), 0.04));
     float large = value_noise(uv * 0.7);
     vec3 clay = mix(vec3(0.36, 0.13, 0.075), vec3(0.55, 0.27, 0.15), tone);
-    clay = mix(clay, vec3(0.62, 0.48, 0.36), step(0.86, tone) * detail * 0.8);
+    clay = mix(clay, vec3(0.50, 0.36, 0.26), step(0.86, tone) * detail * 0.8);
     clay *= 0.75 + 0.5 * grain;
     clay *= 0.8 + 0.4 * large;
     vec3 mortar = vec3(0.50, 0.47, 0.42) * (0.8 + 0.4 * grain);

@@ -1,0 +1,16 @@
+// A scene's lights and sky as the block that shaders read.
+#pragma once
+
+#include "renderer/scene.h"
+#include "renderer/shared/scene_layout.h"
+
+namespace parafovea {
+
+// Everything but the shadow matrix and the irradiance volume, which their makers fill in. At most kMaxLights
+// lights.
+shared::Lighting lighting_block(const Scene& scene);
+
+// Radiance of the sky without the sun; the same formula as sky_radiance() in lighting.glsl.
+glm::vec3 sky_radiance(const Sky& sky, glm::vec3 direction);
+
+}  // namespace parafovea
