@@ -44,9 +44,9 @@ struct SensitivityCurve {
 };
 
 // Powers of the sensitivity (with the metric's gain) against log2 of frequency, in steps of 1/64 octave from
-// 2^-6 to 2^14 cpd, read by linear interpolation: relative error below 1e-4.
+// 2^-16 to 2^14 cpd, read by linear interpolation: relative error below 1e-4.
 struct SensitivityTable {
-    static constexpr float kFirst = -6, kLast = 14, kStepsPerOctave = 64;
+    static constexpr float kFirst = -16, kLast = 14, kStepsPerOctave = 64;
     static constexpr int kEntries = static_cast<int>((kLast - kFirst) * kStepsPerOctave) + 2;
     std::vector<float> values;
 

@@ -84,12 +84,11 @@ void expand_row(const Level& in, int y, int out_width, std::vector<float>& narro
         out[2 * pairs] = 2 * (kOuter * (row[pairs - 1] + row[pairs + 1]) + kCentre * row[pairs]);
 }
 
-// One row of the two band-pass pictures to pooled powers of contrast; returns whether any pixel differs.
+// One row of the two band-pass pictures to powers of contrast.
 PARAFOVEA_VECTORISED
-bool contrast_row(const float* test, const float* reference, const float* test_low,
+void contrast_row(const float* test, const float* reference, const float* test_low,
                   const float* reference_low, float test_background_share, float gain, int width,
-                  float* difference, float* masker) {
-    int differing = 0;
+                  float* __restrict difference, float* __restrict masker) {
     for (int x = 0; x < width; ++x) {
         const float mean = reference_low[x] + test_background_share * (test_low[x] - reference_low[x]);
         const float background = mean > kLeastBackground ? mean : kLeastBackground;
@@ -99,11 +98,9 @@ bool contrast_row(const float* test, const float* reference, const float* test_l
         r = r > kMostContrast ? kMostContrast : (r < -kMostContrast ? -kMostContrast : r);
         const float apart = std::fabs(t - r);
         const float at = std::fabs(t), ar = std::fabs(r);
-        differing |= apart > 0 ? 1 : 0;
         difference[x] = fast_power(apart, kDifferencePower * kPoolingPower);
         masker[x] = fast_power((at < ar ? at : ar) * kMaskingGain, kMaskingPower);
     }
-    return differing != 0;
 }
 
 void check(RgbaView picture, const DisplayModel& d) {
@@ -182,10 +179,11 @@ ContrastBands contrast_bands(const LuminancePyramid& test, const LuminancePyrami
             expand_row(reference.levels[b + 1], y, t.width, narrow, reference_low.data());
             const std::size_t at = static_cast<std::size_t>(y) * t.width;
             // The finest band's kernel passes its frequency whole, the others' only half.
-            if (contrast_row(row_of(t, y), row_of(r, y), test_low.data(), reference_low.data(), test_share,
-                             b == 0 ? 1.0f : 2.0f, t.width, &band.difference[at], &band.masker[at]))
-                bands.identical = false;
+            contrast_row(row_of(t, y), row_of(r, y), test_low.data(), reference_low.data(), test_share,
+                         b == 0 ? 1.0f : 2.0f, t.width, &band.difference[at], &band.masker[at]);
         }
+        if (std::any_of(band.difference.begin(), band.difference.end(), [](float d) { return d > 0; }))
+            bands.identical = false;
         bands.bands.push_back(std::move(band));
     }
     return bands;
