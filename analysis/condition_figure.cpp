@@ -57,8 +57,7 @@ std::string condition_figure_script(const std::vector<ConditionRow>& rows, std::
     title += gnuplot_quoted(study.title) + ".\"}}\\n{/=10.5 \"." + gnuplot_quoted(subtitle) + ".\"}\"";
     if (!study.data_origin.empty())
         title += ".\"\\n{/=10.5 {/:Bold Data: \"." + gnuplot_quoted(study.data_origin) + ".\"}}\"";
-    body += "set title " + title + " left offset graph 0, first 0\n";
-    body += "set title offset graph -0.5,0\n";
+    body += "set title " + title + " left offset graph -0.5,character 1.2\n";
 
     // Shade every second group, so that a marker is never ascribed to the wrong sigma.
     for (std::size_t i = 1; i < sigmas.size(); i += 2)
@@ -69,18 +68,20 @@ std::string condition_figure_script(const std::vector<ConditionRow>& rows, std::
     body += "set ytics 0,20,100 nomirror out scale 0.6\nset xtics nomirror out scale 0 (";
     for (std::size_t i = 0; i < sigmas.size(); ++i)
         body += std::string(i ? ", " : "") + "\"" + fixed_text(sigmas[i] * sigmas[i], 2) + "\\n{/=9 (σ " +
-                short_text(sigmas[i]) + ")}\" " + std::to_string(i);
+                fixed_text(sigmas[i], 1) + ")}\" " + std::to_string(i);
     body += ")\nset border 3 linewidth 0.8 linecolor rgb '#333333'\n";
     body += "set grid ytics linetype 1 linewidth 0.4 linecolor rgb '#DDDDDD'\n";
-    body += "set xlabel \"Buffer reduction σ²  (full-resolution pixels per shaded sample)\"\n";
+    body += "set xlabel \"Buffer reduction σ²  (full-resolution pixels per shaded sample)\" offset 0,-0.9\n";
     body += "set ylabel \"{/:Italic P}_I: answered “identical” (% of trials)\"\n";
     const double criterion = 100.0 * study.identical_criterion;
     body += "set label 1 \"" + general_text(criterion, 4) + " %\" at graph 1.008,first " +
             fixed_text(criterion, 2) + " left font ',10' textcolor rgb '#333333'\n";
-    body += "set key outside top right horizontal samplen 1.2 width 1.2 height 0.4 spacing 1.1 maxrows 1\n";
-    body += "set key at graph 1,graph 1.045 right bottom horizontal\n";
-    body += "set bars 0.45\nset lmargin 9\nset rmargin 6\nset tmargin " +
-            std::string(study.data_origin.empty() ? "4.6" : "5.8") + "\nset bmargin 4.4\n";
+    // The key has its own line between the title and the plot.
+    body +=
+        "set key at graph 0,graph 1.035 left bottom horizontal Left reverse samplen 1.4 width 0.6 maxrows "
+        "1\n";
+    body += "set bars 0.45\nset lmargin 8.5\nset rmargin 6\nset tmargin " +
+            std::string(study.data_origin.empty() ? "5.2" : "6.4") + "\nset bmargin 4.9\n";
     body += "plot " + fixed_text(criterion, 4) +
             " with lines dashtype (8,5) linewidth 1.1 linecolor rgb '#333333' notitle";
     for (std::size_t j = 0; j < alphas.size(); ++j) {
@@ -88,7 +89,7 @@ std::string condition_figure_script(const std::vector<ConditionRow>& rows, std::
         body += ", $series" + std::to_string(j) +
                 " using 1:2:3:4 with yerrorbars linetype 1 linewidth 1.1 linecolor rgb '" + style.colour +
                 "' pointtype " + std::to_string(style.point) +
-                " pointsize 0.75 title \"α = " + short_text(alphas[j]) + "\"";
+                " pointsize 0.9 title \"α = " + short_text(alphas[j]) + "\"";
     }
     const double width = std::clamp(2.6 + 2.05 * count, 12.0, 27.0);
     return figure_script(stem, {width, 10.0}, body);

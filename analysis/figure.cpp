@@ -40,7 +40,8 @@ FigureStyle series_style(std::size_t n) {
 std::string figure_script(const std::filesystem::path& stem, const FigureSize& size,
                           const std::string& body) {
     const std::string size_cm = fixed_text(size.width_cm, 2) + "cm," + fixed_text(size.height_cm, 2) + "cm";
-    constexpr double kSvgUnitsPerCm = 40.0;  // SVG scales; this makes 12 units a readable letter on a screen
+    constexpr double kSvgUnitsPerCm =
+        52.0;  // makes 13 units a readable letter on a screen; SVG scales anyway
     const std::string size_svg =
         fixed_text(size.width_cm * kSvgUnitsPerCm, 0) + "," + fixed_text(size.height_cm * kSvgUnitsPerCm, 0);
     std::string script = "set encoding utf8\n";
@@ -51,14 +52,14 @@ std::string figure_script(const std::filesystem::path& stem, const FigureSize& s
             "reset\n" + terminal + "\nset output " + path_quoted(file) + "\n" + body + "\nunset output\n";
     };
     draw("set terminal svg size " + size_svg +
-             " fixed enhanced font 'DejaVu Sans,12' linewidth 1.2 background rgb 'white'",
+             " fixed enhanced font 'DejaVu Sans,13' linewidth 1.2 background rgb 'white'",
          ".svg");
     draw("set terminal pdfcairo size " + size_cm +
              " enhanced font 'DejaVu Sans,8' linewidth 1.4 fontscale 1.0",
          ".pdf");
     draw("set terminal pngcairo size " + fixed_text(size.width_cm * 100.0, 0) + "," +
              fixed_text(size.height_cm * 100.0, 0) +
-             " enhanced font 'DejaVu Sans,12' fontscale 1.85 linewidth 2.6 pointscale 2",
+             " enhanced font 'DejaVu Sans,12' fontscale 1.75 linewidth 2.4 pointscale 2",
          ".png");
     return script;
 }
