@@ -41,7 +41,7 @@ ClockAnchor read_clock_anchor(HostTime now);
 // Version 4, from the system's randomness.
 std::string make_uuid();
 
-// What is left of a session after a crash: enough to go on.
+// What happened to one showing of a planned trial, as far as what comes next depends on it.
 struct ShownTrial {
     int number = 0;
     int attempt = 0;
@@ -49,7 +49,7 @@ struct ShownTrial {
     bool identical = false;
     bool valid = false;
     bool interrupted = false;
-    bool superseded = false;  // its block was started over
+    bool superseded = false;  // to be shown again by decision
 };
 
 struct CalibrationPoint {
@@ -66,43 +66,51 @@ struct CalibrationRecord {
     std::vector<CalibrationPoint> points;
 };
 
-// Every call returns at once: a thread of its own writes, one transaction a call, durable (synchronous =
-// FULL) when wait_until_durable returns or durable() is true. A failure of the disk is thrown, as one clear
-// line, from the next call. Files are readable by their owner alone. A second process is refused the same
-// file.
+// Every append returns at once: a thread of its own writes, one transaction for each, and what durable() or
+// wait_until_durable() confirms is on the disk (WAL, synchronous = FULL). What the disk refuses is thrown, as
+// one clear line, from the next call. The file is readable by its owner alone. A second process is refused
+// the same file. Calls come from one thread.
 class SessionLog {
   public:
-    // Stores protocol, facts and the whole plan, durable on return. Throws if the file exists or cannot be
-    // made.
+    // Stores protocol, facts and the whole plan, durable on return. Throws std::runtime_error where the file
+    // exists or cannot be made. `vfs` names another SQLite VFS than the default.
     static SessionLog create(const std::filesystem::path& path, const SessionFacts& facts,
-                             const Protocol& protocol, const TrialPlan& plan, ClockAnchor anchor);
+                             const Protocol& protocol, const TrialPlan& plan, ClockAnchor anchor,
+                             const char* vfs = nullptr);
 
-    // Opens a file to go on with. Throws where it is missing, damaged, from a newer program, or in use.
-    static SessionLog open_to_resume(const std::filesystem::path& path, ClockAnchor anchor);
+    // Opens a file to go on with. Throws std::runtime_error where it is missing, damaged, from a newer
+    // program, or in use.
+    static SessionLog open_to_resume(const std::filesystem::path& path, ClockAnchor anchor,
+                                     const char* vfs = nullptr);
 
     SessionLog(SessionLog&&) noexcept;
     ~SessionLog();  // writes what is queued
 
-    // Stored state, as of opening.
     const Protocol& protocol() const;
     const TrialPlan& plan() const;
-    const std::vector<ShownTrial>& shown_before() const;  // oldest first
-    double age_h() const;  // since the last answer before opening; 0 if just created
+    const std::vector<ShownTrial>& shown() const;       // oldest first, those of earlier runs included
+    bool page_was_left(const std::string& page) const;  // by append_page, in this run or an earlier one
+    bool resumed() const;                               // opened, not created
+    bool finished() const;
+    double age_h()
+        const;  // hours between the last thing stored by an earlier run and the opening; 0 for a new file
 
-    // The record of one trial with its frames, gaze, events and answer, in one transaction.
+    // The record of one trial with its frames, gaze, events and answer.
     void append(TrialRecord record);
 
     void append_calibration(CalibrationRecord record);
+    void append_page(HostTime time, const std::string& page);  // the participant left this page of text
     void append_event(HostTime time, std::string kind,
-                      std::string detail);              // "rest", "pause", "resume", "abort", ...
+                      std::string detail);              // "pause", "resumed", "stopped", ...
     void append_note(HostTime time, std::string text);  // the operator's words
-    void append_flag(int trial_number, std::string kind, std::string detail);
+    void append_flag(int trial_number, int attempt, std::string kind, std::string detail);
     void append_questionnaire(HostTime time, std::string name, std::map<std::string, std::string> answers);
-    void supersede_session(int session);  // its trials so far no longer count; they stay in the file
-    void finish(HostTime time);           // the session is complete
+    void supersede_trial(int trial_number);  // its showings so far no longer count; they stay in the file
+    void supersede_session(int session);     // ... for all its trials, and its pages come again
+    void finish(HostTime time);              // every trial is settled
 
-    bool durable();             // everything appended so far is on the disk
-    void wait_until_durable();  // throws what the disk said
+    bool durable();  // everything appended so far is on the disk
+    void wait_until_durable();
 
   private:
     struct State;

@@ -1,0 +1,285 @@
+// Runs a session from the first trial that is still to do.
+#include "study/session_runner.h"
+
+#include <algorithm>
+#include <stdexcept>
+#include <vector>
+
+#include "study/trial_runner.h"
+
+namespace parafovea {
+namespace {
+
+// What became of one planned trial so far.
+struct Standing {
+    int showings = 0;    // that were not interrupted or superseded
+    int rows = 0;        // all
+    bool valid = false;  // one of them counts
+    int last_shown = -1;
+};
+
+std::vector<Standing> standings(const TrialPlan& plan, const std::vector<ShownTrial>& shown) {
+    std::vector<Standing> all(plan.trials.size());
+    for (std::size_t i = 0; i < shown.size(); ++i) {
+        Standing& standing = all.at(static_cast<std::size_t>(shown[i].number));
+        ++standing.rows;
+        if (shown[i].interrupted || shown[i].superseded) continue;
+        ++standing.showings;
+        standing.valid = standing.valid || shown[i].valid;
+        standing.last_shown = static_cast<int>(i);
+    }
+    return all;
+}
+
+bool settled(const PlannedTrial& trial, const Standing& standing, const ValidityRules& rules) {
+    if (standing.showings == 0) return false;
+    return standing.valid || trial.kind == TrialKind::training || standing.showings > rules.repeats;
+}
+
+std::string replaced(std::string text, const std::string& name, int value) {
+    for (std::size_t at = text.find(name); at != std::string::npos; at = text.find(name, at))
+        text.replace(at, name.size(), std::to_string(value));
+    return text;
+}
+
+class RunningSession {
+  public:
+    RunningSession(SessionLog& log, Stage& stage, GazeSource& gaze, ControllerSource& controller,
+                   Clock& clock, const SessionHooks& hooks, const SessionOptions& options)
+        : log_(log),
+          protocol_(log.protocol()),
+          stage_(stage),
+          gaze_(gaze),
+          controller_(controller),
+          clock_(clock),
+          hooks_(hooks),
+          options_(options) {}
+
+    SessionEnd run() {
+        if (log_.resumed()) go_on_after_interruption();
+        page("introduction", protocol_.text().introduction);
+        calibrate();
+        while (const std::optional<NextTrial> next =
+                   next_trial(log_.plan(), log_.shown(), protocol_.validity)) {
+            if (!prepare_for(*next->planned)) return stopped();
+            if (!serve_operator()) continue;
+            if (!show_trial(*next)) return stopped();
+        }
+        if (hooks_.stop.stop_requested()) return stopped();
+        if (!log_.finished()) log_.finish(clock_.now());
+        tell("finished", nullptr);
+        if (!protocol_.text().finished.empty()) page("finished", protocol_.text().finished);
+        log_.wait_until_durable();
+        return SessionEnd::finished;
+    }
+
+  private:
+    bool stop_requested() const { return hooks_.stop.stop_requested(); }
+
+    SessionEnd stopped() {
+        log_.append_event(clock_.now(), "stopped", "");
+        log_.wait_until_durable();
+        return SessionEnd::stopped;
+    }
+
+    void go_on_after_interruption() {
+        const std::optional<NextTrial> next = next_trial(log_.plan(), log_.shown(), protocol_.validity);
+        if (!next) return;
+        const ResumePolicy policy = protocol_.resume.policy(log_.age_h());
+        if (policy == ResumePolicy::refuse)
+            throw std::runtime_error("resume: expected a session left at most " +
+                                     std::to_string(protocol_.resume.refuse_after_h) + " hours ago, found " +
+                                     std::to_string(log_.age_h()) + "; start a new session");
+        const bool restart = policy == ResumePolicy::restart_block;
+        if (restart) log_.supersede_session(next->planned->session);
+        log_.append_event(clock_.now(), "resumed",
+                          restart ? "session restarted" : "at the first unanswered trial");
+    }
+
+    void tell(const char* state, const PlannedTrial* next) {
+        if (!hooks_.on_progress) return;
+        const std::vector<Standing> all = standings(log_.plan(), log_.shown());
+        SessionProgress progress;
+        progress.total = static_cast<int>(all.size());
+        for (std::size_t i = 0; i < all.size(); ++i)
+            if (settled(log_.plan().trials[i], all[i], protocol_.validity)) ++progress.done;
+        progress.session = next ? next->session : session_;
+        progress.sessions = protocol_.design.sessions;
+        progress.next = next;
+        progress.state = state;
+        hooks_.on_progress(progress);
+    }
+
+    // Everything that comes before a trial: the pages of its session, and a rest. False: stop.
+    bool prepare_for(const PlannedTrial& next) {
+        session_ = next.session;
+        rest_if_due(next);
+        if (next.session == 0)
+            page("training", protocol_.text().training);
+        else
+            page("session " + std::to_string(next.session), protocol_.text().session);
+        return !stop_requested();
+    }
+
+    void rest_if_due(const PlannedTrial& next) {
+        if (log_.shown().empty()) return;
+        const ShownTrial& last = log_.shown().back();
+        if (last.interrupted || last.superseded) return;
+        const PlannedTrial& planned = log_.plan().trials[static_cast<std::size_t>(last.number)];
+        const bool failed = planned.kind == TrialKind::validation && last.answered && !last.identical;
+        const bool session_over = planned.session > 0 && planned.session != next.session;
+        const int in_session = static_cast<int>(
+            std::count_if(log_.shown().begin(), log_.shown().end(), [&](const ShownTrial& shown) {
+                return log_.plan().trials[static_cast<std::size_t>(shown.number)].session == planned.session;
+            }));
+        const bool reminder = protocol_.rests.every_trials && planned.session > 0 &&
+                              in_session % *protocol_.rests.every_trials == 0;
+        const bool after_failed = failed && protocol_.rests.after_failed_validation;
+        if (!after_failed && !reminder && !(session_over && protocol_.rests.after_session)) return;
+        // Named after the trial, so that a rest cut short by a crash is given again and a completed one is
+        // not.
+        const std::string name =
+            "rest after trial " + std::to_string(last.number) + " attempt " + std::to_string(last.attempt);
+        const Texts& texts = protocol_.text();
+        const bool other_text = after_failed && !texts.rest_after_failed_validation.empty();
+        page(name, other_text ? texts.rest_after_failed_validation : texts.rest, protocol_.rests.at_least_s);
+    }
+
+    // Shows a page of text until the participant leaves it, once in a session's life.
+    void page(const std::string& name, const std::string& text, double at_least_s = 0) {
+        if (!options_.show_texts || text.empty() || log_.page_was_left(name) || stop_requested()) return;
+        tell(name.c_str(), nullptr);
+        if (show_text(text, at_least_s, true)) log_.append_page(clock_.now(), name);
+    }
+
+    // False where it was ended by a stop.
+    bool show_text(const std::string& text, double at_least_s, bool participant_may_leave) {
+        Picture picture;
+        picture.kind = PictureKind::text;
+        picture.text = filled(text);
+        std::vector<ControllerEvent> events;
+        controller_.drain(events);
+        std::optional<HostTime> may_leave;
+        while (!stop_requested()) {
+            const ShownFrame frame = stage_.show(picture);
+            if (!may_leave) may_leave = frame.display_time + Duration::from_seconds(at_least_s);
+            events.clear();
+            controller_.drain(events);
+            const bool left = std::any_of(events.begin(), events.end(), [&](const ControllerEvent& event) {
+                return event.kind == ControllerEventKind::press && event.button == protocol_.keys.proceed &&
+                       event.time >= *may_leave;
+            });
+            if (left && participant_may_leave) return true;
+            if (hooks_.operator_request && hooks_.operator_request() == OperatorRequest::proceed) return true;
+        }
+        return false;
+    }
+
+    std::string filled(const std::string& text) const {
+        const int trials = static_cast<int>(log_.plan().trials.size());
+        const std::string with_trial = replaced(replaced(text, "{trials}", trials), "{trial}",
+                                                std::min(trials, static_cast<int>(log_.shown().size()) + 1));
+        return replaced(replaced(with_trial, "{sessions}", protocol_.design.sessions), "{session}", session_);
+    }
+
+    // Calibrates at the start of every run: after an interruption the headset has been off.
+    void calibrate() {
+        if (!hooks_.calibrate || stop_requested() ||
+            !next_trial(log_.plan(), log_.shown(), protocol_.validity))
+            return;
+        if (options_.show_texts && !protocol_.text().calibration.empty())
+            show_text(protocol_.text().calibration, 0, true);
+        tell("calibration", nullptr);
+        if (std::optional<CalibrationRecord> record = hooks_.calibrate())
+            log_.append_calibration(*std::move(record));
+    }
+
+    // Between trials. False where what comes next has to be found out anew.
+    bool serve_operator() {
+        if (!hooks_.operator_request) return true;
+        switch (hooks_.operator_request()) {
+            case OperatorRequest::none:
+            case OperatorRequest::proceed:
+                return true;
+            case OperatorRequest::pause:
+                tell("paused", nullptr);
+                log_.append_event(clock_.now(), "paused", "by the operator");
+                show_text(protocol_.text().paused, 0, false);
+                log_.append_event(clock_.now(), "pause ended", "by the operator");
+                return false;
+            case OperatorRequest::rest:
+                tell("rest", nullptr);
+                log_.append_event(clock_.now(), "rest", "by the operator");
+                show_text(protocol_.text().rest, protocol_.rests.at_least_s, true);
+                return false;
+            case OperatorRequest::recalibrate:
+                log_.append_event(clock_.now(), "recalibration", "by the operator");
+                calibrate();
+                return false;
+            case OperatorRequest::repeat_last:
+                if (log_.shown().empty()) return true;
+                log_.append_event(clock_.now(), "repeat",
+                                  "trial " + std::to_string(log_.shown().back().number));
+                log_.supersede_trial(log_.shown().back().number);
+                return false;
+        }
+        return true;
+    }
+
+    bool show_trial(const NextTrial& next) {
+        tell("trial", next.planned);
+        TrialControl control;
+        control.stop = hooks_.stop;
+        // Every answer is on the disk before the next stimulus.
+        control.stimulus_ready = [this] {
+            if (options_.real_time) return log_.durable();
+            log_.wait_until_durable();
+            return true;
+        };
+        TrialRecord record = run_trial(*next.planned, protocol_, stage_, gaze_, controller_, clock_, control);
+        record.attempt = next.attempt;
+        if (hooks_.on_trial) hooks_.on_trial(record);
+        const bool interrupted = record.interrupted;
+        log_.append(std::move(record));
+        return !interrupted;
+    }
+
+    SessionLog& log_;
+    const Protocol& protocol_;
+    Stage& stage_;
+    GazeSource& gaze_;
+    ControllerSource& controller_;
+    Clock& clock_;
+    const SessionHooks& hooks_;
+    const SessionOptions& options_;
+    int session_ = 0;
+};
+
+}  // namespace
+
+std::optional<NextTrial> next_trial(const TrialPlan& plan, const std::vector<ShownTrial>& shown,
+                                    const ValidityRules& rules) {
+    const std::vector<Standing> all = standings(plan, shown);
+    for (std::size_t first = 0; first < plan.trials.size();) {
+        std::size_t end = first;
+        while (end < plan.trials.size() && plan.trials[end].session == plan.trials[first].session) ++end;
+        // What this session has not shown comes in the plan's order; what has to be shown again comes after,
+        // oldest first.
+        std::optional<std::size_t> again;
+        for (std::size_t i = first; i < end; ++i) {
+            if (settled(plan.trials[i], all[i], rules)) continue;
+            if (all[i].showings == 0) return NextTrial{&plan.trials[i], all[i].rows};
+            if (!again || all[i].last_shown < all[*again].last_shown) again = i;
+        }
+        if (again) return NextTrial{&plan.trials[*again], all[*again].rows};
+        first = end;
+    }
+    return std::nullopt;
+}
+
+SessionEnd run_session(SessionLog& log, Stage& stage, GazeSource& gaze, ControllerSource& controller,
+                       Clock& clock, const SessionHooks& hooks, const SessionOptions& options) {
+    return RunningSession(log, stage, gaze, controller, clock, hooks, options).run();
+}
+
+}  // namespace parafovea

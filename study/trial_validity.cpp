@@ -1,0 +1,60 @@
+// The validity rules.
+#include "study/trial_validity.h"
+
+namespace parafovea {
+namespace {
+
+const IntervalRecord& of(const TrialRecord& record, Phase phase) {
+    return record.intervals[static_cast<std::size_t>(phase)];
+}
+
+bool seen_during(const GazeSample& sample, const IntervalRecord& interval) {
+    return interval.presented_frames > 0 && sample.host_time >= interval.first_display &&
+           sample.host_time < interval.end;
+}
+
+struct GazeCounts {
+    int all = 0, with_direction = 0, off_center = 0;
+};
+
+GazeCounts count_gaze(const TrialRecord& record, double off_center_deg) {
+    GazeCounts counts;
+    for (const GazeSample& sample : record.gaze) {
+        if (!seen_during(sample, of(record, Phase::first_interval)) &&
+            !seen_during(sample, of(record, Phase::second_interval)))
+            continue;
+        ++counts.all;
+        if (!sample.direction) continue;
+        ++counts.with_direction;
+        if (angle_between_deg(*sample.direction, {}) > off_center_deg) ++counts.off_center;
+    }
+    return counts;
+}
+
+bool any_frame_older(const TrialRecord& record, double age_ms) {
+    for (const FrameRecord& frame : record.frames)
+        if (frame.gaze_age && frame.gaze_age->ms() > age_ms) return true;
+    return false;
+}
+
+}  // namespace
+
+std::vector<std::string> broken_rules(const TrialRecord& record, const Protocol& protocol) {
+    const ValidityRules& rules = protocol.validity;
+    std::vector<std::string> broken;
+    const GazeCounts gaze = count_gaze(record, rules.gaze_off_center_deg.value_or(180));
+    if (rules.gaze_off_center_deg && gaze.off_center > rules.gaze_off_share.value_or(0) * gaze.with_direction)
+        broken.push_back("gaze_off_center");
+    // No sample at all is the worst loss of all.
+    if (rules.gaze_lost_share &&
+        (gaze.all == 0 || gaze.all - gaze.with_direction > *rules.gaze_lost_share * gaze.all))
+        broken.push_back("gaze_lost");
+    if (rules.gaze_age_ms && any_frame_older(record, *rules.gaze_age_ms)) broken.push_back("gaze_age");
+    const int missed =
+        of(record, Phase::first_interval).missed_vsyncs + of(record, Phase::second_interval).missed_vsyncs;
+    if (rules.missed_frames && missed > *rules.missed_frames) broken.push_back("missed_frames");
+    if (rules.unanswered && !record.answer) broken.push_back("unanswered");
+    return broken;
+}
+
+}  // namespace parafovea
