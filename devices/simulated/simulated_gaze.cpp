@@ -25,7 +25,8 @@ SimulatedGaze::SimulatedGaze(Clock& clock, const SimulatedGazeSettings& settings
       eye_(settings.seed, start_, settings.eye),
       noise_random_(Random::stream(settings.seed, "tracker noise")),
       timing_random_(Random::stream(settings.seed, "tracker timing")),
-      loss_random_(Random::stream(settings.seed, "tracker losses")) {
+      loss_random_(Random::stream(settings.seed, "tracker losses")),
+      mapping_({.least_latency = settings.latency, .resolution = {1000}}) {
     assert(settings.rate_hz > 0 && settings.bunch >= 1 && std::abs(settings.noise_correlation) < 1);
 
     // Half of the offset's variance belongs to the person, half to this fit of the headset.
@@ -124,8 +125,12 @@ GazeSample SimulatedGaze::measure() {
     sample.sequence = next_index_;
     sample.device_time = settings_.clock_epoch +
                          Duration::from_seconds((when - start_).seconds() * (1 + settings_.clock_skew));
-    sample.host_time = when;
     sample.arrival_time = next_arrival_;
+    if (!next_dropped_) {
+        const MappedTime mapped = mapping_.map(sample.device_time, sample.arrival_time);
+        sample.host_time = mapped.time;
+        sample.host_time_error = mapped.error;
+    }
     sample.left.emplace();
     sample.right.emplace();
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "devices/clock.h"
+#include "devices/clock_mapping.h"
 #include "devices/gaze_source.h"
 #include "devices/random.h"
 #include "devices/simulated/simulated_eye.h"
@@ -40,7 +41,7 @@ struct SimulatedGazeSettings {
     double loss_rate_hz = 0.03;      // eye open but not found (guess)
     double loss_mean_s = 0.12;
 
-    SimulatedEyeSettings eye;
+    SimulatedEyeSettings eye = {};
 };
 
 // The participant's eye and the tracker in one: tell the eye where to look, drain what the tracker saw.
@@ -63,6 +64,7 @@ class SimulatedGaze final : public GazeSource {
     bool eye_closed(HostTime time);
     bool eye_closed() { return eye_closed(clock_.now()); }
 
+    // Host times are mapped from the tracker's own clock, as for a real one whose latency is known.
     void drain(std::vector<GazeSample>& samples) override;
     std::string description() const override;
 
@@ -95,6 +97,7 @@ class SimulatedGaze final : public GazeSource {
 
     std::int64_t next_index_ = -1;
     HostTime next_arrival_;
+    ClockMapping mapping_;
     bool next_dropped_ = false;
 };
 
