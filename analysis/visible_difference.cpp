@@ -2,6 +2,7 @@
 #include "analysis/visible_difference.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <numbers>
 
@@ -93,11 +94,12 @@ void read_row(const float* table, const std::int32_t* entry, const float* fracti
 // Masked differences of one row, to the pooling power.
 PARAFOVEA_VECTORISED
 void mask_row(const float* difference, const float* masker, const float* difference_sensitivity,
-              const float* masker_sensitivity, int width, float most, float* out) {
+              const float* masker_sensitivity, float difference_gain, float masker_gain, int width,
+              float most, float* out) {
     for (int x = 0; x < width; ++x) {
-        const float masking = 1.0f + masker_sensitivity[x] * masker[x];
-        const float masked =
-            difference_sensitivity[x] * difference[x] * fast_exp2(-kPoolingPower * fast_log2(masking));
+        const float masking = 1.0f + masker_gain * masker_sensitivity[x] * masker[x];
+        const float masked = difference_gain * difference_sensitivity[x] * difference[x] *
+                             fast_exp2(-kPoolingPower * fast_log2(masking));
         out[x] = masked < most ? masked : most;
     }
 }
@@ -140,11 +142,15 @@ double jod_from_q(double q) {
     return 10 - kJodGain * std::pow(q, kJodPower);
 }
 
-VisibleDifference compare(const ContrastBands& bands, GazePx gaze) {
+VisibleDifference compare(const ContrastBands& bands, GazePx gaze, double sensitivity) {
+    assert(sensitivity > 0);
     static const SensitivityTable difference_table(sensitivity_curve(),
                                                    double{kDifferencePower} * kPoolingPower);
     static const SensitivityTable masker_table(sensitivity_curve(), kMaskingPower);
     const float most = std::pow(kMostDifference, kPoolingPower);
+    const auto difference_gain =
+        static_cast<float>(std::pow(sensitivity, double{kDifferencePower} * kPoolingPower));
+    const auto masker_gain = static_cast<float>(std::pow(sensitivity, double{kMaskingPower}));
 
     const DisplayModel& display = bands.display;
     const double distance = display.distance_px();
@@ -188,7 +194,7 @@ VisibleDifference compare(const ContrastBands& bands, GazePx gaze) {
             read_row(difference_table.values.data(), entry.data(), fraction.data(), width, s1.data());
             read_row(masker_table.values.data(), entry.data(), fraction.data(), width, s2.data());
             mask_row(difference, &band.masker[static_cast<std::size_t>(y) * width], s1.data(), s2.data(),
-                     width, most, masked.data());
+                     difference_gain, masker_gain, width, most, masked.data());
             for (int x = 0; x < width; ++x) {
                 const int zone = zone_of(eccentricity[x]);
                 sum[zone] += masked[x];

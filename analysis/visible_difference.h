@@ -118,8 +118,9 @@ ContrastBands contrast_bands(const LuminancePyramid& test, const LuminancePyrami
 ContrastBands decompose(RgbaView test, RgbaView reference, const DisplayModel& display,
                         ContrastBackground background = ContrastBackground::reference);
 
-// Judges the pair at one gaze.
-VisibleDifference compare(const ContrastBands& bands, GazePx gaze);
+// Judges the pair at one gaze, for an eye whose contrast sensitivity is `sensitivity` (> 0) times the
+// published average at every frequency and eccentricity.
+VisibleDifference compare(const ContrastBands& bands, GazePx gaze, double sensitivity = 1);
 
 // JOD of a pooled difference Q >= 0: 10 - a Q^b.
 double jod_from_q(double q);

@@ -81,7 +81,8 @@ inline double foveal_sensitivity(double rho) {
     return std::exp(value(i) + t * (slope(i) + t * (quadratic + t * cubic)));
 }
 
-inline double pooled_q(RgbaView test, RgbaView reference, const DisplayModel& d, GazePx gaze) {
+inline double pooled_q(RgbaView test, RgbaView reference, const DisplayModel& d, GazePx gaze,
+                       double sensitivity = 1) {
     const double deg = 180 / std::acos(-1.0);
     const double distance = 0.5 * d.width_px / std::tan(d.horizontal_fov_deg / 2 / deg);
     const double ppd = distance * std::tan(1 / deg);
@@ -107,8 +108,8 @@ inline double pooled_q(RgbaView test, RgbaView reference, const DisplayModel& d,
                 const double e = std::isfinite(gaze.x + gaze.y) ? std::hypot(ax - gx, ay - gy) : 0;
                 const double oblique = 1 + (px * px + py * py) / (distance * distance);
                 const double magnification = std::pow(3.67 / (e + 3.67), 0.604562);
-                const double s =
-                    foveal_sensitivity(rho * oblique / magnification) * std::pow(10, 16.2596 / 20);
+                const double s = foveal_sensitivity(rho * oblique / magnification) *
+                                 std::pow(10, 16.2596 / 20) * sensitivity;
 
                 const double mask = std::min(std::fabs(ct * s), std::fabs(cr * s)) * std::pow(10, -0.973838);
                 const double masked =

@@ -88,6 +88,20 @@ TEST(VisibleDifference, EqualsTheEquationsInDoublePixelByPixel) {
             }
 }
 
+TEST(VisibleDifference, AKeenerEyeSeesWhatTheEquationsSayItSees) {
+    const GreyPicture reference = textured_picture(64, 48);
+    const RgbaPicture r = rgba_from(reference), t = rgba_from(with_noise(reference, 2, 12, 9));
+    const ContrastBands bands = decompose(t, r, display(64, 48, 20));
+    double before = 0;
+    for (const double sensitivity : {0.25, 0.7, 1.0, 1.4, 3.0}) {
+        const double expected = oracle::pooled_q(t, r, display(64, 48, 20), {20, 30}, sensitivity);
+        const double q = compare(bands, {20, 30}, sensitivity).q;
+        EXPECT_NEAR(q, expected, 1e-3 * expected) << sensitivity;
+        EXPECT_GT(q, before);
+        before = q;
+    }
+}
+
 TEST(VisibleDifference, ColourChannelsWeighAsTheirLuminance) {
     RgbaPicture reference{16, 16, std::vector<std::uint8_t>(16 * 16 * 4, 90)}, test = reference;
     const int channel_of[3] = {0, 1, 2};
