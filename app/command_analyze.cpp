@@ -8,8 +8,8 @@
 namespace parafovea {
 
 AnalyzeCommand::AnalyzeCommand(CLI::App& program) {
-    CLI::App* command =
-        program.add_subcommand("analyze", "Make Figure 10, Table 1 and a report from session files or a responses CSV");
+    CLI::App* command = program.add_subcommand(
+        "analyze", "Make Figure 10, Table 1 and a report from session files or a responses CSV");
     command->footer("Example: parafovea analyze demo_study --out results");
     command->add_option("inputs", inputs_, "Session files, folders of them, or a responses CSV")->required();
     command->add_option("--out", out_, "Folder for the results")->required();
@@ -17,10 +17,15 @@ AnalyzeCommand::AnalyzeCommand(CLI::App& program) {
 }
 
 void AnalyzeCommand::run() const {
-    const StudyData data = read_study_data(inputs_);
-    const AnalysisFiles files = write_analysis(data.responses, data.description, out_);
-    std::printf("%s\nfigure  %s\ntable   %s\nreport  %s\n", table1_text(data.responses, data.description).c_str(),
-                files.figure.c_str(), files.table.c_str(), files.report.c_str());
+    analyze_and_print(inputs_, out_);
+}
+
+void analyze_and_print(const std::vector<std::string>& inputs, const std::string& out) {
+    const StudyData data = read_study_data(inputs);
+    const AnalysisFiles files = write_analysis(data.responses, data.description, out);
+    std::printf("%s\nfigure  %s\ntable   %s\nreport  %s\n",
+                table1_text(data.responses, data.description).c_str(), files.figure.c_str(),
+                files.table.c_str(), files.report.c_str());
 }
 
 }  // namespace parafovea

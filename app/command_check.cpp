@@ -28,8 +28,8 @@ void print_duration(const char* what, double seconds, double refresh_hz) {
 }  // namespace
 
 CheckCommand::CheckCommand(CLI::App& program) {
-    CLI::App* command =
-        program.add_subcommand("check", "Read a protocol and say what it would do, or each mistake with its line");
+    CLI::App* command = program.add_subcommand(
+        "check", "Read a protocol and say what it would do, or each mistake with its line");
     command->footer("Example: parafovea check protocols/final.toml");
     command->add_option("protocol", protocol_, "Protocol file (TOML)")->required();
     command->callback([this] { run(); });
@@ -42,14 +42,16 @@ void CheckCommand::run() const {
     std::printf("%-22s %s (hash %s)\n", "protocol", protocol.name.c_str(), protocol_hash(protocol).c_str());
     std::printf("%-22s %s\n", "scenes", joined(protocol.scenes).c_str());
     const ViewGeometry& view = protocol.display.view;
-    std::printf("%-22s %d x %d px, %.4g degrees wide, %.1f px/degree at the centre\n", "display", view.size.width,
-                view.size.height, view.horizontal_fov_deg, view.pixels_per_degree());
+    std::printf("%-22s %d x %d px, %.4g degrees wide, %.1f px/degree at the centre\n", "display",
+                view.size.width, view.size.height, view.horizontal_fov_deg, view.pixels_per_degree());
     print_duration("interval", protocol.timing.interval_s, protocol.display.refresh_hz);
     print_duration("gap", protocol.timing.gap_s, protocol.display.refresh_hz);
-    std::printf("%-22s %zu (%s)\n", "conditions", protocol.conditions.size(), joined(protocol.factors).c_str());
+    std::printf("%-22s %zu (%s)\n", "conditions", protocol.conditions.size(),
+                joined(protocol.factors).c_str());
     std::printf("%-22s %d\n", "training trials", protocol.design.training_trials);
     std::printf("%-22s %d, each of %d condition and %d validation trials\n", "testing sessions",
-                protocol.design.sessions, protocol.conditions_per_session(), protocol.validation_per_session());
+                protocol.design.sessions, protocol.conditions_per_session(),
+                protocol.validation_per_session());
     const double trial_s = protocol.timing.lead_in_s + 2 * protocol.timing.interval_s + protocol.timing.gap_s;
     std::printf("%-22s %zu, at least %.0f minutes without answers and rests\n", "trials of a participant",
                 plan.trials.size(), std::ceil(trial_s * static_cast<double>(plan.trials.size()) / 60));

@@ -53,11 +53,16 @@ class AnalyzeCommand {
     std::string out_;
 };
 
+// What `analyze` does, and `simulate` at its end: writes the results into `out`, prints Table 1 and where the
+// files are.
+void analyze_and_print(const std::vector<std::string>& inputs, const std::string& out);
+
 // The options that say how a picture is foveated, common to several commands.
 struct FoveationOptions {
     double sigma = 1.8;
     double alpha = 4;
     std::string kernel = "power";
+    std::vector<double> betas;
     std::string gaze;  // "X,Y" in pixels; empty: the centre
     bool as_printed = false;
 

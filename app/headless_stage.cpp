@@ -3,8 +3,8 @@
 
 namespace parafovea {
 
-HeadlessStage::HeadlessStage(const ViewGeometry& view, double refresh_hz, Clock& clock, PictureSource& pictures,
-                             Audience& audience)
+HeadlessStage::HeadlessStage(const ViewGeometry& view, double refresh_hz, Clock& clock,
+                             PictureSource& pictures, Audience& audience)
     : view_(view),
       refresh_hz_(refresh_hz),
       clock_(clock),

@@ -1,5 +1,5 @@
-// A stage without a display: it keeps a refresh rate on a clock, simulated or real, and renders the frames that its
-// audience looks at.
+// A stage without a display: it keeps a refresh rate on a clock, simulated or real, and renders the frames
+// that its audience looks at.
 #pragma once
 
 #include "app/picture_source.h"

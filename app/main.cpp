@@ -5,7 +5,8 @@
 #include "app/commands.h"
 
 int main(int argc, char** argv) {
-    CLI::App program("Parafovea: how much can a renderer save in the periphery before people see it?", "parafovea");
+    CLI::App program("Parafovea: how much can a renderer save in the periphery before people see it?",
+                     "parafovea");
     program.set_version_flag("--version", PARAFOVEA_VERSION);
     program.require_subcommand(1);
 

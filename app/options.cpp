@@ -26,7 +26,8 @@ bool read_pair(std::string_view text, char separator, Number& first, Number& sec
 SizePx parse_size(const std::string& text) {
     SizePx size;
     if (!read_pair(text, 'x', size.width, size.height) || size.width < 1 || size.height < 1)
-        throw CLI::ValidationError("--size", "expected WIDTHxHEIGHT in pixels such as 1280x720, found '" + text + "'");
+        throw CLI::ValidationError("--size",
+                                   "expected WIDTHxHEIGHT in pixels such as 1280x720, found '" + text + "'");
     return size;
 }
 

@@ -44,7 +44,7 @@ void Progress::update(int done, std::string_view detail) {
 
     const double share = std::clamp(static_cast<double>(done) / total_, 0.0, 1.0);
     const double elapsed_s = std::chrono::duration<double>(now - start_).count();
-    const std::string left = last         ? "done in " + minutes_and_seconds(elapsed_s)
+    const std::string left = last        ? "done in " + minutes_and_seconds(elapsed_s)
                              : share > 0 ? minutes_and_seconds(elapsed_s * (1 - share) / share) + " left"
                                          : "";
     if (terminal_) {
@@ -52,7 +52,8 @@ void Progress::update(int done, std::string_view detail) {
         const int filled = static_cast<int>(share * kWidth);
         std::fprintf(stderr, "\r%s [%.*s%.*s] %3d%%  %s  %.*s\033[K", title_.c_str(), filled,
                      "##############################", kWidth - filled, "..............................",
-                     static_cast<int>(share * 100), left.c_str(), static_cast<int>(detail.size()), detail.data());
+                     static_cast<int>(share * 100), left.c_str(), static_cast<int>(detail.size()),
+                     detail.data());
     } else {
         std::fprintf(stderr, "%s: %d of %d, %s, %.*s\n", title_.c_str(), done, total_, left.c_str(),
                      static_cast<int>(detail.size()), detail.data());

@@ -1,4 +1,5 @@
-// A progress bar with the time left on a terminal, plain lines otherwise, nothing when quiet. Writes to standard error.
+// A progress bar with the time left on a terminal, plain lines otherwise, nothing when quiet. Writes to
+// standard error.
 #pragma once
 
 #include <chrono>

@@ -17,7 +17,8 @@ std::vector<fs::path> input_files(const std::vector<std::string>& inputs) {
     std::vector<fs::path> files;
     for (const std::string& input : inputs) {
         if (!fs::exists(input))
-            throw std::runtime_error(input + ": expected a session file, a folder of them or a responses CSV, found nothing");
+            throw std::runtime_error(
+                input + ": expected a session file, a folder of them or a responses CSV, found nothing");
         if (!fs::is_directory(input)) {
             files.push_back(input);
             continue;
@@ -25,7 +26,9 @@ std::vector<fs::path> input_files(const std::vector<std::string>& inputs) {
         std::vector<fs::path> found;
         for (const fs::directory_entry& entry : fs::directory_iterator(input))
             if (entry.path().extension() == ".sqlite") found.push_back(entry.path());
-        if (found.empty()) throw std::runtime_error(input + ": expected session files (*.sqlite) in this folder, found none");
+        if (found.empty())
+            throw std::runtime_error(input +
+                                     ": expected session files (*.sqlite) in this folder, found none");
         std::sort(found.begin(), found.end());
         files.insert(files.end(), found.begin(), found.end());
     }
@@ -69,10 +72,13 @@ Response response_from(const SessionRows& session, const TrialRow& trial) {
     return response;
 }
 
-// Answered testing trials that were neither broken off nor started over; invalid ones stay, with their reason.
+// Answered testing trials that were neither broken off nor started over; invalid ones stay, with their
+// reason.
 void append_session(const SessionRows& session, std::vector<Response>& responses) {
     for (const TrialRow& trial : session.trials) {
-        if (trial.planned.kind == TrialKind::training || trial.interrupted || trial.superseded || !trial.answer) continue;
+        if (trial.planned.kind == TrialKind::training || trial.interrupted || trial.superseded ||
+            !trial.answer)
+            continue;
         responses.push_back(response_from(session, trial));
     }
 }
@@ -105,15 +111,18 @@ StudyData read_study_data(const std::vector<std::string>& inputs) {
             description.protocol_name = session.protocol_name;
             description.protocol_hash = session.protocol_hash;
             description.program_version = session.facts.program_version;
-            description.provenance.emplace_back("rendered by", session.facts.device + ", " + session.facts.driver);
+            description.provenance.emplace_back("rendered by",
+                                                session.facts.device + ", " + session.facts.driver);
             description.provenance.emplace_back("eye tracker", session.facts.gaze_source);
         } else if (session.protocol_hash != description.protocol_hash) {
             throw std::runtime_error(file.string() + ": protocol " + session.protocol_name + " (hash " +
-                                     session.protocol_hash + ") differs from that of " + first_session.string() +
-                                     " (hash " + description.protocol_hash + "); analyse them apart");
+                                     session.protocol_hash + ") differs from that of " +
+                                     first_session.string() + " (hash " + description.protocol_hash +
+                                     "); analyse them apart");
         }
         if (session.facts.simulated_people) description.data_origin = "simulated participants";
-        seeds += (seeds.empty() ? "" : ", ") + session.facts.participant + " " + std::to_string(session.plan.seed);
+        seeds +=
+            (seeds.empty() ? "" : ", ") + session.facts.participant + " " + std::to_string(session.plan.seed);
         append_session(session, data.responses);
     }
     if (!seeds.empty()) data.description.provenance.emplace_back("seeds", seeds);

@@ -15,9 +15,9 @@ struct StudyData {
     StudyDescription description;
 };
 
-// Reads session files (.sqlite), folders of them, or responses tables (.csv), in the order given, folders in the order
-// of names. Sessions of one study only: a different protocol hash, or a session given twice, is an error that names
-// both files. Throws std::runtime_error with one line.
+// Reads session files (.sqlite), folders of them, or responses tables (.csv), in the order given, folders in
+// the order of names. Sessions of one study only: a different protocol hash, or a session given twice, is an
+// error that names both files. Throws std::runtime_error with one line.
 StudyData read_study_data(const std::vector<std::string>& inputs);
 
 }  // namespace parafovea
