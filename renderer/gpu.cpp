@@ -100,8 +100,8 @@ void check_vulkan(VkResult result, const char* doing) {
 Gpu::Gpu(const GpuOptions& options) {
     try {
         create_instance(options);
-        choose_physical_device(options.device_name);
-        create_device();
+        choose_physical_device(options);
+        create_device(options.maker);
     } catch (...) {
         destroy();
         throw;
@@ -153,7 +153,8 @@ void Gpu::create_instance(const GpuOptions& options) {
         info.enabledExtensionCount = extensions.size();
         info.ppEnabledExtensionNames = extensions.data();
     }
-    const VkResult result = vkCreateInstance(&info, nullptr, &instance_);
+    const VkResult result = options.maker.instance ? options.maker.instance(info, instance_)
+                                                   : vkCreateInstance(&info, nullptr, &instance_);
     if (result == VK_ERROR_INCOMPATIBLE_DRIVER) {
         throw std::runtime_error(
             "no Vulkan device found: no driver is installed; install mesa-vulkan-drivers (it needs no GPU) "
@@ -169,7 +170,7 @@ void Gpu::create_instance(const GpuOptions& options) {
     }
 }
 
-void Gpu::choose_physical_device(const std::string& wanted_name) {
+void Gpu::choose_physical_device(const GpuOptions& options) {
     std::uint32_t count = 0;
     const VkResult counted = vkEnumeratePhysicalDevices(instance_, &count, nullptr);
     if (counted == VK_ERROR_INITIALIZATION_FAILED || count == 0) {
@@ -179,6 +180,11 @@ void Gpu::choose_physical_device(const std::string& wanted_name) {
     check_vulkan(counted, "looking for devices");
     std::vector<VkPhysicalDevice> devices(count);
     check_vulkan(vkEnumeratePhysicalDevices(instance_, &count, devices.data()), "looking for devices");
+    if (options.maker.physical_device) {
+        devices.resize(1);
+        check_vulkan(options.maker.physical_device(instance_, devices.front()),
+                     "asking for the headset's device");
+    }
     std::ranges::stable_sort(
         devices, {}, [](VkPhysicalDevice device) { return rank_of(properties_of(device).deviceType); });
 
@@ -186,7 +192,7 @@ void Gpu::choose_physical_device(const std::string& wanted_name) {
     for (const VkPhysicalDevice device : devices) {
         const VkPhysicalDeviceProperties properties = properties_of(device);
         const std::string name = properties.deviceName;
-        if (name.find(wanted_name) == std::string::npos) {
+        if (name.find(options.device_name) == std::string::npos) {
             refused += "; " + name + " has another name";
             continue;
         }
@@ -223,7 +229,7 @@ void Gpu::choose_physical_device(const std::string& wanted_name) {
     throw std::runtime_error("no usable Vulkan device found" + refused);
 }
 
-void Gpu::create_device() {
+void Gpu::create_device(const GpuMaker& maker) {
     // Ask what there is.
     VkPhysicalDeviceVulkan13Features has13{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES};
     VkPhysicalDeviceVulkan12Features has12{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES};
@@ -243,11 +249,13 @@ void Gpu::create_device() {
     require(has13.synchronization2, "synchronization2");
     require(has.features.fragmentStoresAndAtomics, "fragmentStoresAndAtomics");
     require(has.features.independentBlend, "independentBlend");
+    require(has.features.occlusionQueryPrecise, "occlusionQueryPrecise");
 
     // Switch on what is used: the required features, and what makes pictures better where present.
     features_ = {};
     features_.fragmentStoresAndAtomics = VK_TRUE;
     features_.independentBlend = VK_TRUE;
+    features_.occlusionQueryPrecise = VK_TRUE;
     features_.samplerAnisotropy = has.features.samplerAnisotropy;
     features_.multiDrawIndirect = has.features.multiDrawIndirect;
     features_.drawIndirectFirstInstance = has.features.drawIndirectFirstInstance;
@@ -278,7 +286,9 @@ void Gpu::create_device() {
     info.pNext = &use;
     info.queueCreateInfoCount = 1;
     info.pQueueCreateInfos = &queue;
-    check_vulkan(vkCreateDevice(physical_device_, &info, nullptr, &device_), "opening the device");
+    check_vulkan(maker.device ? maker.device(physical_device_, info, device_)
+                              : vkCreateDevice(physical_device_, &info, nullptr, &device_),
+                 "opening the device");
     vkGetDeviceQueue(device_, queue_family_, 0, &queue_);
 
     VkCommandPoolCreateInfo pool{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO};

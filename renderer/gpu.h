@@ -15,12 +15,21 @@
 
 namespace parafovea {
 
+// Makes the Vulkan instance and device in Vulkan's place, as an OpenXR runtime must
+// (XR_KHR_vulkan_enable2). Each is called once, in this order, and left empty together.
+struct GpuMaker {
+    std::function<VkResult(const VkInstanceCreateInfo&, VkInstance&)> instance;
+    std::function<VkResult(VkInstance, VkPhysicalDevice&)> physical_device;  // the one that must be used
+    std::function<VkResult(VkPhysicalDevice, const VkDeviceCreateInfo&, VkDevice&)> device;
+};
+
 struct GpuOptions {
     // The Khronos validation layer with synchronization validation; what it says is in validation_messages().
     bool validation = false;
     // A part of the wanted device's name; empty: the first of the fastest kind (discrete, integrated,
     // virtual, CPU).
     std::string device_name;
+    GpuMaker maker;  // empty: Vulkan itself
 };
 
 // Throws one line that says what was being done and what the result means; returns on success. Device lost,
@@ -93,8 +102,8 @@ class Gpu {
 
   private:
     void create_instance(const GpuOptions& options);
-    void choose_physical_device(const std::string& wanted_name);
-    void create_device();
+    void choose_physical_device(const GpuOptions& options);
+    void create_device(const GpuMaker& maker);
     void destroy();
 
     VkInstance instance_ = VK_NULL_HANDLE;
