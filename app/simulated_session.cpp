@@ -55,6 +55,7 @@ class SimulatedAudience final : public Audience {
                 }
                 return false;
             case PictureKind::black:
+            case PictureKind::target:
                 return false;
         }
         return false;

@@ -12,13 +12,13 @@
 namespace parafovea {
 
 // What is on the screen during one frame.
-enum class PictureKind { black, fixation, stimulus, question, text };
+enum class PictureKind { black, fixation, stimulus, question, text, target };
 
 struct Picture {
     PictureKind kind = PictureKind::black;
     std::string scene;     // stimulus only: a scene's name or glTF path
     MethodSetting method;  // stimulus only: how it is rendered
-    PointPx fovea;         // stimulus only: where the foveation is centred
+    PointPx fovea;         // stimulus: where the foveation is centred; target: where the dot to look at is
     std::string text;      // text and question only
 };
 
