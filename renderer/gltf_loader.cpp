@@ -97,10 +97,7 @@ glm::mat4 local_transform(const tinygltf::Node& node) {
 
 // Turns strips and fans into single triangles.
 std::vector<std::uint32_t> as_triangles(std::vector<std::uint32_t> indices, int mode) {
-    if (mode == TINYGLTF_MODE_TRIANGLES) {
-        indices.resize(indices.size() / 3 * 3);
-        return indices;
-    }
+    if (mode == TINYGLTF_MODE_TRIANGLES) return indices;
     std::vector<std::uint32_t> triangles;
     for (std::size_t i = 2; i < indices.size(); ++i) {
         if (mode == TINYGLTF_MODE_TRIANGLE_FAN)
@@ -216,8 +213,6 @@ class SceneBuilder {
         if (triangles.indices.empty()) return -1;
         const int material = material_of(primitive.material, what);
         const bool good_normals = read_attributes(primitive, material, what, triangles);
-        drop_degenerate(triangles);
-        if (triangles.indices.empty()) return -1;
         if (!good_normals) make_flat_normals(triangles);
         const bool has_tangents = good_normals && primitive.attributes.contains("TANGENT");
         if (scene_.materials[static_cast<std::size_t>(material)].normal_texture && !has_tangents)
@@ -239,6 +234,9 @@ class SceneBuilder {
             indices.resize(triangles.vertices.size());
             for (std::size_t i = 0; i < indices.size(); ++i) indices[i] = static_cast<std::uint32_t>(i);
         }
+        if (mode == TINYGLTF_MODE_TRIANGLES && indices.size() % 3 != 0)
+            throw std::runtime_error(what + ": " + std::to_string(indices.size()) +
+                                     " indices do not make whole triangles");
         triangles.indices = as_triangles(std::move(indices), mode);
     }
 

@@ -1,35 +1,229 @@
 // Records the geometry passes of a scene and keeps descriptor set 0 filled.
 #include "renderer/scene_passes.h"
 
+#include <algorithm>
 #include <cassert>
+#include <cstring>
+#include <optional>
 
 #include "renderer/scene_lighting.h"
+#include "renderer/scene_resources.h"
+#include "renderer/scene_shadow.h"
 
 namespace parafovea {
+namespace {
+
+const ResourceUse kUseUniform{VK_PIPELINE_STAGE_2_ALL_GRAPHICS_BIT | VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
+                              VK_ACCESS_2_UNIFORM_READ_BIT, VK_IMAGE_LAYOUT_UNDEFINED};
+
+// False only if the box lies wholly outside one of the frustum's planes.
+bool may_be_seen(const Bounds& box, const glm::mat4& clip_from_world) {
+    int left = 0, right = 0, above = 0, below = 0, behind = 0;
+    for (int corner = 0; corner < 8; ++corner) {
+        const glm::vec4 p = clip_from_world * glm::vec4(corner & 1 ? box.high.x : box.low.x,
+                                                        corner & 2 ? box.high.y : box.low.y,
+                                                        corner & 4 ? box.high.z : box.low.z, 1);
+        left += p.x < -p.w;
+        right += p.x > p.w;
+        above += p.y < -p.w;
+        below += p.y > p.w;
+        behind += p.w < p.z;
+    }
+    return left < 8 && right < 8 && above < 8 && below < 8 && behind < 8;
+}
+
+}  // namespace
 
 struct ScenePasses::Parts {
     Gpu& gpu;
     ScenePassOptions options;
     bool ray_marched = false;
     SceneFeatures features;
+    bool build_blended = false;
+    bool build_shadow = false;
+    bool build_emission = false;
+    std::uint32_t light_count = 0;
+    std::optional<SceneResources> resources;
+    std::optional<SunShadow> shadow;
+    bool shadow_drawn = false;
     SizePx size;
-    CameraView view;
+    glm::mat4 clip_from_world{1};
     shared::Camera camera{};
     shared::Lighting lighting{};
     GpuBuffer camera_buffer;
     GpuBuffer lighting_buffer;
+    GpuImage gbuffer, depth, blended, blended_depth;
+    GpuImage unused_words, unused_depth;  // stand at the bindings of what was left out
+    OwnedSampler nearest, shadow_sampler;
     DescriptorSet set;
+    std::vector<std::size_t> in_view;
     std::vector<FeatureNote> built;
     std::vector<FeatureNote> left_out;
     std::uint64_t triangles_in_view = 0;
+
+    void note(bool is_built, const char* name, const std::string& why_built, const std::string& why_not) {
+        if (is_built)
+            built.push_back({name, why_built});
+        else
+            left_out.push_back({name, why_not});
+    }
+    void build_meshes(const Scene& scene);
+    void describe(const Scene& scene);
+    void make_targets();
+    void find_visible(glm::vec3 eye);
+    void record_layer(VkCommandBuffer commands, bool blended_layer);
 };
 
-namespace {
+void ScenePasses::Parts::build_meshes(const Scene& scene) {
+    const bool all = options.force_everything;
+    build_shadow = features.sun_shadow || (all && features.sun);
+    build_blended = features.alpha_blend || features.transmission || all;
+    build_emission = features.emission || features.occlusion_maps || all;
+    light_count = all ? shared::kMaxLights : static_cast<std::uint32_t>(scene.lights.size());
+    resources.emplace(gpu, scene, !build_emission);
+    if (build_shadow) {
+        shadow.emplace(gpu, *resources, glm::normalize(scene.sun->direction));
+        std::memcpy(lighting.shadow_from_world.columns, &shadow->map_from_world(), sizeof(glm::mat4));
+        lighting.sun_irradiance.w = shadow->texel_m();
+    }
+    nearest = make_sampler(gpu, {.filter = VK_FILTER_NEAREST,
+                                 .mipmap = VK_SAMPLER_MIPMAP_MODE_NEAREST,
+                                 .address_u = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
+                                 .address_v = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE});
+    shadow_sampler = make_sampler(gpu, {.address_u = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
+                                        .address_v = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
+                                        .compare = true});
+    // One texel each, in the state in which they are bound.
+    unused_words = GpuImage(gpu, {.format = VK_FORMAT_R32G32B32A32_UINT,
+                                  .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT});
+    unused_depth =
+        GpuImage(gpu, {.format = VK_FORMAT_D16_UNORM,
+                       .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT});
+    gpu.submit_and_wait([&](VkCommandBuffer commands) {
+        image_barrier(commands, unused_words, kUseNone, kUseSampled);
+        image_barrier(commands, unused_depth, kUseNone, kUseSampled);
+    });
 
-const ResourceUse kUseUniform{VK_PIPELINE_STAGE_2_ALL_GRAPHICS_BIT | VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
-                              VK_ACCESS_2_UNIFORM_READ_BIT, VK_IMAGE_LAYOUT_UNDEFINED};
+    const auto texture = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
+    set = DescriptorSet(gpu, {{shared::kBindCamera},
+                              {shared::kBindLighting},
+                              {shared::kBindGBuffer, texture},
+                              {shared::kBindDepth, texture},
+                              {shared::kBindShadow, texture},
+                              {shared::kBindBlended, texture},
+                              {shared::kBindBlendedDepth, texture}});
+    set.set_sampled_image(shared::kBindShadow, shadow ? shadow->map().view() : unused_depth.view(),
+                          shadow_sampler.get());
+}
 
-}  // namespace
+void ScenePasses::Parts::describe(const Scene& scene) {
+    const std::string forced = "forced on";
+    if (ray_marched) {
+        left_out = {{"depth", "the scene is ray-marched"},
+                    {"shadow", "shadows are traced"},
+                    {"defer", "the scene is ray-marched"}};
+    } else {
+        note(build_shadow, "shadow map", features.sun_shadow ? "the sun casts shadows; drawn once" : forced,
+             features.sun ? "the sun casts no shadow" : "no sun");
+        note(false, "depth", "", "instances are drawn front to back and depth comes with the G-buffer");
+        note(true, "G-buffer", build_emission ? "4 words a pixel" : "2 words a pixel", "");
+        note(build_emission, "emission and occlusion",
+             features.emission || features.occlusion_maps ? "materials emit or carry occlusion maps" : forced,
+             "no material emits or carries an occlusion map");
+        note(build_blended, "blended layer",
+             features.alpha_blend || features.transmission ? "materials blend or transmit" : forced,
+             "every surface is opaque");
+        note(features.normal_maps, "normal maps", "materials carry them", "no material carries one");
+        note(features.alpha_mask, "alpha masks", "materials carry them", "no material carries one");
+        note(features.vertex_colors, "vertex colours", "meshes carry them", "all are white");
+        note(light_count > 0, "lamps", std::to_string(light_count), "the scene has none");
+    }
+    note(false, "sky box", "",
+         scene.ray_marched ? "rays that miss shade the sky" : "pixels without a surface shade the sky");
+}
+
+void ScenePasses::Parts::make_targets() {
+    const auto width = static_cast<std::uint32_t>(size.width),
+               height = static_cast<std::uint32_t>(size.height);
+    const auto color = [&](VkFormat format) {
+        return GpuImage(gpu, {.format = format,
+                              .width = width,
+                              .height = height,
+                              .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT});
+    };
+    const auto depth_target = [&] {
+        return GpuImage(gpu,
+                        {.format = kDepthFormat,
+                         .width = width,
+                         .height = height,
+                         .usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT});
+    };
+    // Release the old ones first: both sizes together may not fit.
+    for (GpuImage* image : {&gbuffer, &depth, &blended, &blended_depth}) *image = GpuImage();
+    gbuffer = color(resources->gbuffer_format());
+    depth = depth_target();
+    if (build_blended) {
+        blended = color(kBlendedFormat);
+        blended_depth = depth_target();
+    }
+    set.set_sampled_image(shared::kBindGBuffer, gbuffer.view(), nearest.get());
+    set.set_sampled_image(shared::kBindDepth, depth.view(), nearest.get());
+    set.set_sampled_image(shared::kBindBlended, build_blended ? blended.view() : unused_words.view(),
+                          nearest.get());
+    set.set_sampled_image(shared::kBindBlendedDepth,
+                          build_blended ? blended_depth.view() : unused_depth.view(), nearest.get());
+}
+
+// Lists the instances in the view, the nearest first.
+void ScenePasses::Parts::find_visible(glm::vec3 eye) {
+    std::vector<std::pair<float, std::size_t>> seen;
+    triangles_in_view = 0;
+    for (std::size_t i = 0; i < resources->instances().size(); ++i) {
+        const DrawInstance& instance = resources->instances()[i];
+        if (instance.bounds.empty() || !may_be_seen(instance.bounds, clip_from_world)) continue;
+        const glm::vec3 nearest_point = glm::clamp(eye, instance.bounds.low, instance.bounds.high);
+        seen.emplace_back(glm::distance(eye, nearest_point) + 0.1f * instance.bounds.radius(), i);
+        triangles_in_view += resources->meshes()[instance.mesh].index_count / 3;
+    }
+    std::sort(seen.begin(), seen.end());
+    in_view.clear();
+    for (const auto& [distance, index] : seen) in_view.push_back(index);
+}
+
+void ScenePasses::Parts::record_layer(VkCommandBuffer commands, bool blended_layer) {
+    const GpuImage& words = blended_layer ? blended : gbuffer;
+    const GpuImage& distance = blended_layer ? blended_depth : depth;
+    image_barrier(commands, words, kUseNone, kUseColorTarget);
+    image_barrier(commands, distance, kUseNone, kUseDepthTarget);
+    const DepthTarget depth_target{distance.view(), true, 0.0f, false};
+    // Words without a depth are never read, so they need no clearing.
+    begin_rendering(commands, words.extent(), {ColorTarget{words.view(), false, true, {}}}, &depth_target);
+    resources->bind_geometry(commands);
+    VkPipeline bound_pipeline = VK_NULL_HANDLE;
+    int bound_material = -1;
+    for (std::size_t index : in_view) {
+        const DrawInstance& instance = resources->instances()[index];
+        const DrawMesh& mesh = resources->meshes()[instance.mesh];
+        const DrawMaterial& material = resources->material_of(instance);
+        if (material.blend != blended_layer) continue;
+        const PipelineKey key = material.flags | (instance.mirrored ? kKeyMirrored : 0);
+        const VkPipeline pipeline = resources->gbuffer_pipeline(gpu, key);
+        if (pipeline != bound_pipeline)
+            vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);
+        bound_pipeline = pipeline;
+        if (mesh.material != bound_material) {
+            const VkDescriptorSet material_set = material.set.get();
+            vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, resources->layout(), 0, 1,
+                                    &material_set, 0, nullptr);
+            bound_material = mesh.material;
+        }
+        push_instance(commands, *resources, instance, clip_from_world);
+        vkCmdDrawIndexed(commands, mesh.index_count, 1, mesh.first_index, mesh.first_vertex, 0);
+    }
+    vkCmdEndRendering(commands);
+    image_barrier(commands, words, kUseColorTarget, kUseSampled);
+    image_barrier(commands, distance, kUseDepthTarget, kUseSampled);
+}
 
 ScenePasses::ScenePasses(Gpu& gpu, const Scene& scene, const ScenePassOptions& options)
     : parts_(new Parts{.gpu = gpu, .options = options}) {
@@ -42,10 +236,14 @@ ScenePasses::ScenePasses(Gpu& gpu, const Scene& scene, const ScenePassOptions& o
                   VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT, BufferPlace::device);
     p.lighting_buffer =
         GpuBuffer(gpu, sizeof(shared::Lighting), VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT, BufferPlace::upload);
+    if (scene.ray_marched)
+        p.set = DescriptorSet(gpu, {{shared::kBindCamera}, {shared::kBindLighting}});
+    else
+        p.build_meshes(scene);
     p.lighting_buffer.write(p.lighting);
-    p.set = DescriptorSet(gpu, {{shared::kBindCamera}, {shared::kBindLighting}});
     p.set.set_buffer(shared::kBindCamera, p.camera_buffer);
     p.set.set_buffer(shared::kBindLighting, p.lighting_buffer);
+    p.describe(scene);
 }
 
 ScenePasses::~ScenePasses() = default;
@@ -57,16 +255,35 @@ bool ScenePasses::ray_marched() const {
 void ScenePasses::set_view(SizePx size, const CameraView& view) {
     assert(size.width > 0 && size.height > 0);
     Parts& p = *parts_;
-    p.size = size;
-    p.view = view;
     p.camera = camera_block(view, size);
+    p.clip_from_world = clip_from_world(view, size);
+    const bool resized = size != p.size;
+    p.size = size;
+    if (p.ray_marched) return;
+    if (resized) p.make_targets();
+    p.find_visible(glm::vec3(view.world_from_eye[3]));
 }
 
-void ScenePasses::record(VkCommandBuffer commands, PassTimer*) {
+void ScenePasses::record(VkCommandBuffer commands, PassTimer* timer) {
     Parts& p = *parts_;
+    assert(p.size.width > 0);
+    // An earlier view in this command buffer may still be reading the block and the targets.
     memory_barrier(commands, kUseUniform, kUseTransferTarget);
     vkCmdUpdateBuffer(commands, p.camera_buffer.get(), 0, sizeof(shared::Camera), &p.camera);
     memory_barrier(commands, kUseTransferTarget, kUseUniform);
+    if (p.ray_marched) return;
+    memory_barrier(commands, kUseSampled, kUseDepthTarget);
+    memory_barrier(commands, kUseSampled, kUseColorTarget);
+    if (p.build_shadow && !p.shadow_drawn) {
+        if (timer) timer->start(commands, "shadow");
+        p.shadow->record(commands, p.gpu, *p.resources);
+        if (timer) timer->stop(commands);
+        p.shadow_drawn = true;
+    }
+    if (timer) timer->start(commands, "defer");
+    p.record_layer(commands, false);
+    if (p.build_blended) p.record_layer(commands, true);
+    if (timer) timer->stop(commands);
 }
 
 VkDescriptorSetLayout ScenePasses::shading_set_layout() const {
@@ -78,15 +295,23 @@ VkDescriptorSet ScenePasses::shading_set() const {
 
 std::vector<ShaderConstant> ScenePasses::shading_constants() const {
     const Parts& p = *parts_;
-    return {{shared::kConstFootprint, p.options.filter_over_spacing ? 1u : 0u},
-            {shared::kConstSamples, p.options.samples_per_sample}};
+    std::vector<ShaderConstant> constants{{shared::kConstFootprint, p.options.filter_over_spacing ? 1u : 0u}};
+    if (p.ray_marched) {
+        constants.push_back({shared::kConstSamples, p.options.samples_per_sample});
+    } else {
+        constants.push_back({shared::kConstSunShadow, p.build_shadow ? 1u : 0u});
+        constants.push_back({shared::kConstBlend, p.build_blended ? 1u : 0u});
+        constants.push_back({shared::kConstEmission, p.build_emission ? 1u : 0u});
+        constants.push_back({shared::kConstLights, p.light_count});
+    }
+    return constants;
 }
 
 const shared::Camera& ScenePasses::camera() const {
     return parts_->camera;
 }
 const GpuImage* ScenePasses::depth() const {
-    return nullptr;
+    return parts_->ray_marched ? nullptr : &parts_->depth;
 }
 const std::vector<FeatureNote>& ScenePasses::built() const {
     return parts_->built;

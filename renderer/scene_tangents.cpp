@@ -115,16 +115,4 @@ int append_mesh(Scene& scene, const Triangles& mesh, int material) {
     return static_cast<int>(scene.meshes.size()) - 1;
 }
 
-void drop_degenerate(Triangles& mesh) {
-    std::size_t kept = 0;
-    for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
-        const std::uint32_t a = mesh.indices[i], b = mesh.indices[i + 1], c = mesh.indices[i + 2];
-        if (a == b || b == c || a == c) continue;
-        mesh.indices[kept++] = a;
-        mesh.indices[kept++] = b;
-        mesh.indices[kept++] = c;
-    }
-    mesh.indices.resize(kept);
-}
-
 }  // namespace parafovea

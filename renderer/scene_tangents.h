@@ -25,7 +25,4 @@ void make_tangents(Triangles& mesh);
 // Adds the triangles to a scene as a mesh of its own; returns its number. They must not be empty.
 int append_mesh(Scene& scene, const Triangles& mesh, int material);
 
-// Removes triangles that have two equal corners; they cover nothing.
-void drop_degenerate(Triangles& mesh);
-
 }  // namespace parafovea

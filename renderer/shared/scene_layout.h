@@ -15,9 +15,6 @@ const uint kBindDepth = 3u;     // sampler2D, reversed depth
 const uint kBindShadow = 4u;    // sampler2DShadow, the sun's map
 const uint kBindBlended = 5u;   // usampler2D, the nearest blended surface
 const uint kBindBlendedDepth = 6u;
-const uint kBindIrradiance = 7u;   // sampler3D, ambient light in the scene's box
-const uint kBindEnvironment = 8u;  // sampler2D, octahedral radiance of the surroundings, blurrier by level
-const uint kSceneBindings = 9u;
 
 // Specialization constants of the shading shaders. Ids below 64 are free for the methods.
 const uint kConstSunShadow = 64u;   // 1: the sun casts shadows
@@ -28,6 +25,45 @@ const uint kConstIrradiance = 68u;  // 1: ambient light varies over the scene
 const uint kConstFootprint =
     69u;                         // 1: textures and highlights are filtered over spacing_px, 0: over one pixel
 const uint kConstSamples = 70u;  // ray-marched: samples of one shade_sample()
+
+// Material of a G-buffer or depth pipeline: set 1.
+const uint kBindMaterial = 0u;  // uniform, MaterialBlock
+const uint kBindBaseColor = 1u;
+const uint kBindMetallicRoughness = 2u;
+const uint kBindNormal = 3u;
+const uint kBindOcclusion = 4u;
+const uint kBindEmissive = 5u;
+const uint kMaterialTextures = 5u;
+
+// Specialization constants of the geometry shaders: what a material uses.
+const uint kConstBaseColorTexture = 0u;
+const uint kConstMetallicRoughnessTexture = 1u;
+const uint kConstNormalTexture = 2u;
+const uint kConstOcclusionTexture = 3u;
+const uint kConstEmissiveTexture = 4u;
+const uint kConstMask = 5u;
+const uint kConstTextureTransforms = 6u;
+const uint kConstVertexColors = 7u;
+const uint kConstBlendedLayer = 8u;
+const uint kGeometryConstants = 9u;
+
+// Push constants of the geometry shaders.
+struct InstancePush {
+    mat4 clip_from_mesh;
+    vec4 normal_x;  // columns of the matrix that takes normals to the world; w of the first: -1 when it
+                    // mirrors
+    vec4 normal_y;
+    vec4 normal_z;
+};
+
+// Uniform block; std140.
+struct MaterialBlock {
+    vec4 base_color;
+    vec4 emissive;        // w: normal scale
+    vec4 factors;         // metallic, roughness, occlusion strength, alpha cutoff
+    vec4 glass;           // transmission, index of refraction
+    vec4 transforms[10];  // two rows for each texture: looked up at (row.xy . uv + row.z)
+};
 
 const uint kMaxLights = 64u;
 

@@ -1,0 +1,280 @@
+// Uploads a scene and builds its pipelines.
+#include "renderer/scene_resources.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <numbers>
+#include <tuple>
+
+#include "shader_code/depth_masked_frag.h"
+#include "shader_code/depth_masked_vert.h"
+#include "shader_code/depth_vert.h"
+#include "shader_code/gbuffer_frag.h"
+#include "shader_code/gbuffer_vert.h"
+
+namespace parafovea {
+namespace {
+
+// What the G-buffer's vertex shader reads beside the position.
+struct PackedAttributes {
+    std::int16_t frame[4];
+    float uv[2];
+    std::uint8_t color[4];
+};
+static_assert(sizeof(PackedAttributes) == 20);
+
+std::int16_t snorm16(float x) {
+    return static_cast<std::int16_t>(std::lround(std::clamp(x, -1.0f, 1.0f) * 32767));
+}
+
+glm::vec2 octahedral(glm::vec3 n) {
+    const glm::vec2 p = glm::vec2(n) / (std::abs(n.x) + std::abs(n.y) + std::abs(n.z));
+    if (n.z >= 0) return p;
+    return {(1 - std::abs(p.y)) * (p.x >= 0 ? 1.0f : -1.0f), (1 - std::abs(p.x)) * (p.y >= 0 ? 1.0f : -1.0f)};
+}
+
+glm::vec3 from_octahedral(glm::vec2 p) {
+    glm::vec3 n{p, 1 - std::abs(p.x) - std::abs(p.y)};
+    const float under = std::max(-n.z, 0.0f);
+    n.x += n.x >= 0 ? -under : under;
+    n.y += n.y >= 0 ? -under : under;
+    return glm::normalize(n);
+}
+
+PackedAttributes packed(const SceneVertex& v) {
+    const glm::vec2 p = octahedral(v.normal);
+    PackedAttributes a{};
+    a.frame[0] = snorm16(p.x);
+    a.frame[1] = snorm16(p.y);
+    // The tangent as an angle around the stored normal, from axes that the shader finds again.
+    const glm::vec3 n =
+        from_octahedral({static_cast<float>(a.frame[0]) / 32767, static_cast<float>(a.frame[1]) / 32767});
+    const glm::vec3 axis = std::abs(n.x) < 0.9f ? glm::vec3(1, 0, 0) : glm::vec3(0, 1, 0);
+    const glm::vec3 across = glm::normalize(glm::cross(n, axis));
+    const glm::vec3 t{v.tangent};
+    const float angle = std::atan2(glm::dot(t, glm::cross(n, across)), glm::dot(t, across));
+    a.frame[2] = snorm16(angle / std::numbers::pi_v<float>);
+    a.frame[3] = v.tangent.w < 0 ? -32767 : 32767;
+    a.uv[0] = v.uv.x;
+    a.uv[1] = v.uv.y;
+    for (int i = 0; i < 4; ++i) a.color[i] = v.color[i];
+    return a;
+}
+
+VkSamplerAddressMode address_mode(TextureWrap wrap) {
+    switch (wrap) {
+        case TextureWrap::mirror:
+            return VK_SAMPLER_ADDRESS_MODE_MIRRORED_REPEAT;
+        case TextureWrap::clamp:
+            return VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
+        case TextureWrap::repeat:
+            break;
+    }
+    return VK_SAMPLER_ADDRESS_MODE_REPEAT;
+}
+
+std::uint32_t level_count(int width, int height) {
+    std::uint32_t levels = 1;
+    for (int size = std::max(width, height); size > 1; size /= 2) ++levels;
+    return levels;
+}
+
+void set_transform(shared::MaterialBlock& block, int index, const TextureSlot& slot) {
+    // KHR_texture_transform: scaled, then turned counter-clockwise as seen with v down, then moved.
+    const float c = std::cos(slot.rotation_rad), s = std::sin(slot.rotation_rad);
+    block.transforms[2 * index] = {c * slot.scale.x, s * slot.scale.y, slot.offset.x, 0};
+    block.transforms[2 * index + 1] = {-s * slot.scale.x, c * slot.scale.y, slot.offset.y, 0};
+}
+
+bool is_moved(const TextureSlot& slot) {
+    return slot && (slot.offset != glm::vec2(0) || slot.scale != glm::vec2(1) || slot.rotation_rad != 0);
+}
+
+}  // namespace
+
+SceneResources::SceneResources(Gpu& gpu, const Scene& scene, bool lean_gbuffer)
+    : gbuffer_format_(lean_gbuffer ? VK_FORMAT_R32G32_UINT : VK_FORMAT_R32G32B32A32_UINT),
+      vertex_colors_(features_of(scene).vertex_colors) {
+    upload_geometry(gpu, scene);
+    upload_textures(gpu, scene);
+    make_materials(gpu, scene);
+}
+
+void SceneResources::upload_geometry(Gpu& gpu, const Scene& scene) {
+    std::vector<glm::vec3> positions;
+    std::vector<PackedAttributes> attributes;
+    positions.reserve(scene.vertices.size());
+    attributes.reserve(scene.vertices.size());
+    for (const SceneVertex& v : scene.vertices) {
+        positions.push_back(v.position);
+        attributes.push_back(packed(v));
+    }
+    const auto make = [&](auto values, VkBufferUsageFlags usage) {
+        GpuBuffer buffer(gpu, values.size_bytes(), usage | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+                         BufferPlace::device);
+        upload(gpu, buffer, values);
+        return buffer;
+    };
+    positions_ = make(std::span<const glm::vec3>(positions), VK_BUFFER_USAGE_VERTEX_BUFFER_BIT);
+    attributes_ = make(std::span<const PackedAttributes>(attributes), VK_BUFFER_USAGE_VERTEX_BUFFER_BIT);
+    indices_ = make(std::span<const std::uint32_t>(scene.indices), VK_BUFFER_USAGE_INDEX_BUFFER_BIT);
+    for (const SceneMesh& mesh : scene.meshes)
+        meshes_.push_back({mesh.first_index, mesh.index_count, static_cast<std::int32_t>(mesh.first_vertex),
+                           mesh.material, mesh.bounds});
+    for (const SceneInstance& instance : scene.instances) {
+        DrawInstance draw;
+        draw.mesh = instance.mesh;
+        draw.world_from_mesh = instance.world_from_mesh;
+        const glm::mat3 linear{instance.world_from_mesh};
+        const float determinant = glm::determinant(linear);
+        draw.mirrored = determinant < 0;
+        draw.world_from_normal =
+            std::abs(determinant) > 1e-30f ? glm::transpose(glm::inverse(linear)) : glm::mat3(1);
+        draw.bounds = transformed(scene.meshes[instance.mesh].bounds, instance.world_from_mesh);
+        instances_.push_back(draw);
+    }
+}
+
+void SceneResources::upload_textures(Gpu& gpu, const Scene& scene) {
+    // One image for each pairing of pixels and encoding, one sampler for each way of reading.
+    std::vector<std::pair<int, bool>> known_images;
+    std::vector<std::tuple<TextureWrap, TextureWrap, bool>> known_samplers;
+    for (const SceneTexture& texture : scene.textures) {
+        const std::pair<int, bool> image_key{texture.image, texture.srgb};
+        const auto image_at = std::find(known_images.begin(), known_images.end(), image_key);
+        image_of_texture_.push_back(static_cast<std::size_t>(image_at - known_images.begin()));
+        if (image_at == known_images.end()) {
+            known_images.push_back(image_key);
+            const SceneImage& pixels = scene.images[texture.image];
+            GpuImage image(gpu, {.format = texture.srgb ? VK_FORMAT_R8G8B8A8_SRGB : VK_FORMAT_R8G8B8A8_UNORM,
+                                 .width = static_cast<std::uint32_t>(pixels.width),
+                                 .height = static_cast<std::uint32_t>(pixels.height),
+                                 .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT |
+                                          VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
+                                 .mip_levels = level_count(pixels.width, pixels.height)});
+            upload(gpu, image, std::as_bytes(std::span(pixels.rgba)));
+            images_.push_back(std::move(image));
+        }
+        const std::tuple sampler_key{texture.wrap_u, texture.wrap_v, texture.nearest};
+        const auto sampler_at = std::find(known_samplers.begin(), known_samplers.end(), sampler_key);
+        sampler_of_texture_.push_back(static_cast<std::size_t>(sampler_at - known_samplers.begin()));
+        if (sampler_at == known_samplers.end()) {
+            known_samplers.push_back(sampler_key);
+            samplers_.push_back(
+                make_sampler(gpu, {.filter = texture.nearest ? VK_FILTER_NEAREST : VK_FILTER_LINEAR,
+                                   .address_u = address_mode(texture.wrap_u),
+                                   .address_v = address_mode(texture.wrap_v),
+                                   // Anisotropic lookups cost a software device more than they show.
+                                   .max_anisotropy = gpu.runs_on_the_cpu() ? 1.0f : 8.0f}));
+        }
+    }
+    white_ = GpuImage(gpu, {.usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT});
+    const std::uint32_t white = 0xffffffff;
+    upload(gpu, white_, std::as_bytes(std::span(&white, 1)));
+    plain_sampler_ = make_sampler(gpu, {});
+}
+
+void SceneResources::make_materials(Gpu& gpu, const Scene& scene) {
+    for (const Material& m : scene.materials) {
+        DrawMaterial draw;
+        const TextureSlot* slots[] = {&m.base_color_texture, &m.metallic_roughness_texture, &m.normal_texture,
+                                      &m.occlusion_texture, &m.emissive_texture};
+        shared::MaterialBlock block{};
+        block.base_color = {m.base_color.x, m.base_color.y, m.base_color.z, m.base_color.w};
+        block.emissive = {m.emissive.x, m.emissive.y, m.emissive.z, m.normal_scale};
+        block.factors = {m.metallic, m.roughness, m.occlusion_strength, m.alpha_cutoff};
+        block.glass = {m.transmission, m.ior, 0, 0};
+        for (int i = 0; i < 5; ++i) {
+            set_transform(block, i, *slots[i]);
+            if (*slots[i]) draw.flags |= 1u << i;
+            if (is_moved(*slots[i])) draw.flags |= 1u << shared::kConstTextureTransforms;
+        }
+        draw.mask = m.alpha_mode == AlphaMode::mask;
+        draw.blend = m.alpha_mode == AlphaMode::blend || m.transmission > 0;
+        if (draw.mask) draw.flags |= 1u << shared::kConstMask;
+        if (vertex_colors_) draw.flags |= 1u << shared::kConstVertexColors;
+        if (draw.blend) draw.flags |= 1u << shared::kConstBlendedLayer;
+        if (!m.double_sided && !draw.blend) draw.flags |= kKeyCullBack;
+        draw.block = GpuBuffer(gpu, sizeof block, VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT, BufferPlace::upload);
+        draw.block.write(block);
+        std::vector<Binding> bindings{{shared::kBindMaterial}};
+        for (std::uint32_t i = 1; i <= shared::kMaterialTextures; ++i)
+            bindings.push_back({i, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER});
+        draw.set = DescriptorSet(gpu, bindings);
+        draw.set.set_buffer(shared::kBindMaterial, draw.block);
+        for (std::uint32_t i = 0; i < shared::kMaterialTextures; ++i) {
+            if (*slots[i]) {
+                const auto texture = static_cast<std::size_t>(slots[i]->texture);
+                draw.set.set_sampled_image(i + 1, images_[image_of_texture_[texture]].view(),
+                                           samplers_[sampler_of_texture_[texture]].get());
+            } else {
+                draw.set.set_sampled_image(i + 1, white_.view(), plain_sampler_.get());
+            }
+        }
+        materials_.push_back(std::move(draw));
+    }
+    layout_ = make_pipeline_layout(gpu, {materials_.front().set.layout()}, sizeof(shared::InstancePush));
+}
+
+VkPipeline SceneResources::gbuffer_pipeline(Gpu& gpu, PipelineKey key) {
+    OwnedPipeline& pipeline = gbuffer_pipelines_[key];
+    if (pipeline) return pipeline.get();
+    GraphicsPipelineDescription d;
+    d.vertex = shader_code::gbuffer_vert;
+    d.fragment = shader_code::gbuffer_frag;
+    d.layout = layout_.get();
+    d.vertex_bindings = {{0, sizeof(glm::vec3), VK_VERTEX_INPUT_RATE_VERTEX},
+                         {1, sizeof(PackedAttributes), VK_VERTEX_INPUT_RATE_VERTEX}};
+    d.vertex_attributes = {{0, 0, VK_FORMAT_R32G32B32_SFLOAT, 0},
+                           {1, 1, VK_FORMAT_R16G16B16A16_SNORM, offsetof(PackedAttributes, frame)},
+                           {2, 1, VK_FORMAT_R32G32_SFLOAT, offsetof(PackedAttributes, uv)},
+                           {3, 1, VK_FORMAT_R8G8B8A8_UNORM, offsetof(PackedAttributes, color)}};
+    const bool blended = key & (1u << shared::kConstBlendedLayer);
+    d.color_formats = {blended ? kBlendedFormat : gbuffer_format_};
+    d.depth_format = kDepthFormat;
+    d.cull = key & kKeyCullBack ? VK_CULL_MODE_BACK_BIT : VK_CULL_MODE_NONE;
+    d.front_face = key & kKeyMirrored ? VK_FRONT_FACE_CLOCKWISE : VK_FRONT_FACE_COUNTER_CLOCKWISE;
+    d.depth_test = true;
+    d.depth_write = !(key & kKeyDepthEqual);
+    d.depth_compare = key & kKeyDepthEqual ? VK_COMPARE_OP_EQUAL : VK_COMPARE_OP_GREATER;
+    for (std::uint32_t i = 0; i < shared::kGeometryConstants; ++i)
+        d.constants.push_back({i, (key >> i) & 1u});
+    pipeline = make_graphics_pipeline(gpu, d);
+    return pipeline.get();
+}
+
+VkPipeline SceneResources::depth_pipeline(Gpu& gpu, bool masked, VkFormat format) {
+    OwnedPipeline& pipeline = depth_pipelines_[{masked, format}];
+    if (pipeline) return pipeline.get();
+    GraphicsPipelineDescription d;
+    d.layout = layout_.get();
+    d.vertex_bindings = {{0, sizeof(glm::vec3), VK_VERTEX_INPUT_RATE_VERTEX}};
+    d.vertex_attributes = {{0, 0, VK_FORMAT_R32G32B32_SFLOAT, 0}};
+    d.vertex = shader_code::depth_vert;
+    if (masked) {
+        d.vertex = shader_code::depth_masked_vert;
+        d.fragment = shader_code::depth_masked_frag;
+        d.vertex_bindings.push_back({1, sizeof(PackedAttributes), VK_VERTEX_INPUT_RATE_VERTEX});
+        d.vertex_attributes.push_back({2, 1, VK_FORMAT_R32G32_SFLOAT, offsetof(PackedAttributes, uv)});
+    }
+    d.depth_format = format;
+    d.depth_test = true;
+    d.depth_write = true;
+    // The shadow map runs from 0 at the sun; the picture's depth is reversed.
+    const bool shadow = format == kShadowFormat;
+    d.depth_compare = shadow ? VK_COMPARE_OP_LESS : VK_COMPARE_OP_GREATER;
+    if (shadow) d.depth_bias_slope = 1.5f;
+    if (shadow) d.depth_bias_constant = 2;
+    pipeline = make_graphics_pipeline(gpu, d);
+    return pipeline.get();
+}
+
+void SceneResources::bind_geometry(VkCommandBuffer commands) const {
+    const VkBuffer buffers[] = {positions_.get(), attributes_.get()};
+    const VkDeviceSize offsets[] = {0, 0};
+    vkCmdBindVertexBuffers(commands, 0, 2, buffers, offsets);
+    vkCmdBindIndexBuffer(commands, indices_.get(), 0, VK_INDEX_TYPE_UINT32);
+}
+
+}  // namespace parafovea

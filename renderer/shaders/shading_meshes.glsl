@@ -1,0 +1,160 @@
+// shade_sample() of scenes made of meshes: fetches the G-buffer and lights what it finds there.
+#ifndef SHADING_MESHES_GLSL
+#define SHADING_MESHES_GLSL
+
+#include "surface_packing.glsl"
+
+layout(set = 0, binding = kBindGBuffer) uniform usampler2D gbuffer;
+layout(set = 0, binding = kBindDepth) uniform sampler2D depth_image;
+layout(set = 0, binding = kBindShadow) uniform sampler2DShadow shadow_map;
+layout(set = 0, binding = kBindBlended) uniform usampler2D blended;
+layout(set = 0, binding = kBindBlendedDepth) uniform sampler2D blended_depth;
+
+layout(constant_id = kConstSunShadow) const uint kSunShadow = 1u;
+layout(constant_id = kConstBlend) const uint kBlend = 1u;
+layout(constant_id = kConstEmission) const uint kEmission = 1u;
+layout(constant_id = kConstLights) const uint kLights = 0u;
+layout(constant_id = kConstFootprint) const uint kUseFootprint = 1u;
+
+struct Sample {
+    Surface surface;
+    vec3 emitted;
+    float occlusion;
+};
+
+Sample sample_of(uvec4 words) {
+    Sample s;
+    vec4 color_roughness = bytes_of(words.y);
+    s.surface.normal = unpacked_normal(words.x);
+    s.surface.metallic = float(words.x >> 24) * (1.0 / 255.0);
+    s.surface.base_color = color_roughness.rgb * color_roughness.rgb;
+    s.surface.roughness = color_roughness.a;
+    s.emitted = vec3(0.0);
+    s.occlusion = 1.0;
+    return s;
+}
+
+vec3 ray_at(vec2 position_px) {
+    return camera.ray_origin.xyz + position_px.x * camera.ray_per_px_x.xyz + position_px.y * camera.ray_per_px_y.xyz;
+}
+
+// Share of the sun that reaches a point: four bilinear looks at the map around it.
+float sun_visible(vec3 point, vec3 normal) {
+    if (kSunShadow == 0u) return 1.0;
+    float texel_m = lighting.sun_irradiance.w;
+    float facing = clamp(dot(normal, lighting.sun_direction.xyz), 0.0, 1.0);
+    vec3 lifted = point + normal * (texel_m * (0.6 + 2.0 * (1.0 - facing)));
+    vec3 p = (lighting.shadow_from_world * vec4(lifted, 1.0)).xyz;
+    vec2 texel = 1.0 / vec2(textureSize(shadow_map, 0));
+    float sum = textureLod(shadow_map, vec3(p.xy + vec2(-0.75, -0.25) * texel, p.z), 0.0);
+    sum += textureLod(shadow_map, vec3(p.xy + vec2(0.25, -0.75) * texel, p.z), 0.0);
+    sum += textureLod(shadow_map, vec3(p.xy + vec2(0.75, 0.25) * texel, p.z), 0.0);
+    sum += textureLod(shadow_map, vec3(p.xy + vec2(-0.25, 0.75) * texel, p.z), 0.0);
+    return 0.25 * sum;
+}
+
+// KHR_lights_punctual: inverse square, a window at the range, a smooth cone.
+vec3 lamp_light(Surface s, vec3 point, vec3 to_eye) {
+    vec3 sum = vec3(0.0);
+    for (uint i = 0u; i < kLights; ++i) {
+        LightRecord lamp = lighting.lights[i];
+        vec3 to_lamp = lamp.position.xyz - point;
+        float squared = max(dot(to_lamp, to_lamp), 1e-4);
+        vec3 direction = to_lamp * inversesqrt(squared);
+        float ratio = squared * lamp.position.w;
+        float window = clamp(1.0 - ratio * ratio, 0.0, 1.0);
+        float cone = clamp(dot(-direction, lamp.direction.xyz) * lamp.cone.x + lamp.direction.w, 0.0, 1.0);
+        sum += reflected(s, to_eye, direction) * lamp.intensity.rgb * (window * cone * cone / squared);
+    }
+    return sum;
+}
+
+vec3 lit(Sample s, vec3 point, vec3 to_eye) {
+    vec3 to_sun = lighting.sun_direction.xyz;
+    vec3 light = s.emitted;
+    if (dot(lighting.sun_irradiance.rgb, vec3(1.0)) > 0.0)
+        light += reflected(s.surface, to_eye, to_sun) * lighting.sun_irradiance.rgb *
+                 sun_visible(point, s.surface.normal);
+    light += lamp_light(s.surface, point, to_eye);
+    vec3 mirrored = sky_reflection(reflect(-to_eye, s.surface.normal), s.surface.roughness);
+    return light + s.occlusion * ambient_reflected(s.surface, to_eye, ambient_light(s.surface.normal), mirrored);
+}
+
+// Highlights narrower than the sample are widened to it: the spread of the normals around becomes roughness
+// (Kaplanyan et al. 2016, "Filtering Distributions of Normals for Shading Antialiasing").
+float widened_roughness(float roughness, vec3 normal, ivec2 at, float reach_px) {
+    ivec2 most = ivec2(camera.ray_per_px_x.w, camera.ray_per_px_y.w) - 1;
+    int reach = max(int(0.5 * reach_px + 0.5), 1);
+    vec3 dx = unpacked_normal(texelFetch(gbuffer, clamp(at + ivec2(reach, 0), ivec2(0), most), 0).x) - normal;
+    vec3 dy = unpacked_normal(texelFetch(gbuffer, clamp(at + ivec2(0, reach), ivec2(0), most), 0).x) - normal;
+    float spread = dot(dx, dx) + dot(dy, dy);
+    float alpha = roughness * roughness;
+    return sqrt(sqrt(clamp(alpha * alpha + min(0.5 * spread, 0.18), 0.0, 1.0)));
+}
+
+vec3 shade_sample(vec2 position_px, vec2 spacing_px) {
+    ivec2 most = ivec2(camera.ray_per_px_x.w, camera.ray_per_px_y.w) - 1;
+    ivec2 at = clamp(ivec2(floor(position_px)), ivec2(0), most);
+    float reach_px = kUseFootprint == 1u ? sqrt(spacing_px.x * spacing_px.y) : 1.0;
+
+    // Find the nearest blended surface and where the eye sees through it.
+    uvec4 glass_words = uvec4(0u);
+    float glass_depth = 0.0;
+    vec4 glass = vec4(0.0);
+    ivec2 behind_at = at;
+    if (kBlend == 1u) {
+        glass_depth = texelFetch(blended_depth, at, 0).r;
+        if (glass_depth > texelFetch(depth_image, at, 0).r) {
+            glass_words = texelFetch(blended, at, 0);
+            glass = bytes_of(glass_words.w);
+            if (glass.z > 0.0) {
+                // A thin slab bends the eye's ray along its normal.
+                vec3 normal = unpacked_normal(glass_words.x);
+                vec2 aside = vec2(dot(normal, normalize(camera.ray_per_px_x.xyz)),
+                                  dot(normal, normalize(camera.ray_per_px_y.xyz)));
+                float bend = 2.0 * glass.w / (1.0 + 2.0 * glass.w);
+                float reach = 0.06 * bend * glass_depth / (camera.eye.w * length(camera.ray_per_px_x.xyz));
+                ivec2 bent = clamp(at - ivec2(aside * min(reach, 60.0)), ivec2(0), most);
+                if (texelFetch(depth_image, bent, 0).r < glass_depth) behind_at = bent;
+            }
+        } else {
+            glass_depth = 0.0;
+        }
+    }
+
+    // Light what lies behind.
+    vec2 behind_px = vec2(behind_at) + 0.5;
+    float depth = texelFetch(depth_image, behind_at, 0).r;
+    vec3 radiance;
+    if (depth <= 0.0) {
+        radiance = sky_with_sun(normalize(ray_at(behind_px)));
+    } else {
+        vec3 ray = ray_at(behind_px);
+        vec3 point = camera.eye.xyz + ray * (camera.eye.w / depth);
+        uvec4 words = texelFetch(gbuffer, behind_at, 0);
+        Sample s = sample_of(words);
+        if (kEmission == 1u) {
+            s.emitted = unpacked_radiance(words.z);
+            s.occlusion = float(words.w & 0xffu) * (1.0 / 255.0);
+        }
+        s.surface.roughness = widened_roughness(s.surface.roughness, s.surface.normal, behind_at, reach_px);
+        radiance = lit(s, point, normalize(-ray));
+    }
+
+    // Lay the blended surface over it: what it lets through, then its own light; its mirror light is not thinned.
+    if (kBlend == 1u && glass_depth > 0.0) {
+        vec3 ray = ray_at(vec2(at) + 0.5);
+        vec3 point = camera.eye.xyz + ray * (camera.eye.w / glass_depth);
+        Sample s = sample_of(glass_words);
+        s.emitted = unpacked_radiance(glass_words.z);
+        vec3 tint = mix(vec3(1.0), s.surface.base_color, glass.z);
+        float covers = glass.y * (1.0 - glass.z);
+        vec3 to_eye = normalize(-ray);
+        if (dot(s.surface.normal, to_eye) < 0.0) s.surface.normal = -s.surface.normal;
+        s.surface.base_color *= covers;
+        radiance = radiance * tint * (1.0 - covers) + lit(s, point, to_eye);
+    }
+    return tone_mapped(radiance);
+}
+
+#endif
