@@ -31,7 +31,7 @@ SimulatedGaze::SimulatedGaze(Clock& clock, const SimulatedGazeSettings& settings
 
     // Half of the offset's variance belongs to the person, half to this fit of the headset.
     Random person = Random::stream(settings.person_seed, "person");
-    Random session = Random::stream(settings.seed, "session");
+    Random session = Random::stream(settings.fit_seed.value_or(settings.seed), "session");
     const double half = std::sqrt(0.5);
     offset_.azimuth_deg = settings.offset_sd_azimuth_deg * half * (person.normal() + session.normal());
     offset_.elevation_deg = settings.offset_sd_elevation_deg * half * (person.normal() + session.normal());

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,7 @@ namespace parafovea {
 struct SimulatedGazeSettings {
     std::uint64_t seed = 1;         // this session: everything but the person's own offset
     std::uint64_t person_seed = 1;  // this person: the part of the offset that stays from session to session
+    std::optional<std::uint64_t> fit_seed;  // how the headset sits this time; absent: drawn from seed
 
     double rate_hz = 120;                            // FOVE 0
     Duration latency = Duration::from_ms(14);        // exposure to availability, FOVE 0's stated figure
