@@ -77,7 +77,7 @@ void SimulateCommand::run() const {
                                  "analyse what is there with: parafovea analyze " +
                                  sessions.string() + " --out " + out_);
 
-    PictureSource pictures(protocol.display.view.size);
+    PictureSource pictures(protocol.display.view);
     PicturePairJudge judge(display_model(protocol.display.view, protocol.display.peak_luminance_cd_m2));
     {
         StudyProgress progress(participants_, static_cast<int>(make_plan(protocol, 0, 0).trials.size()),

@@ -6,6 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "devices/geometry.h"
+#include "renderer/kernel_setting.h"
+
 namespace parafovea {
 
 class PlanCommand {
@@ -67,6 +70,10 @@ struct FoveationOptions {
     bool as_printed = false;
 
     void add_to(CLI::App& command);
+    // The kernel log-polar map that the options describe.
+    KernelSetting kernel_setting() const;
+    // The gaze on a picture of this size.
+    PointPx gaze_on(SizePx size) const;
 };
 
 class RenderCommand {
@@ -79,6 +86,7 @@ class RenderCommand {
     std::string scene_, method_ = "kfr", size_ = "1280x720", out_, stats_;
     FoveationOptions foveation_;
     bool no_culling_ = false;
+    bool no_filters_ = false;
     bool post_filter_ = false;
 };
 

@@ -30,15 +30,15 @@ std::uint64_t hash_of_pixels(const std::vector<std::uint8_t>& rgba);
 class PictureSource {
   public:
     // Remembers as many of the pictures last asked for as fit into `memory_bytes`.
-    PictureSource(SizePx size, std::size_t memory_bytes = std::size_t{1} << 30);
+    explicit PictureSource(const ViewGeometry& view, std::size_t memory_bytes = std::size_t{1} << 30);
     ~PictureSource();
 
     // A scene drawn by a method with its fovea at a place. Throws what loading and rendering throw.
     RenderedPicture picture(const std::string& scene, const MethodSetting& method, PointPx fovea);
 
     // What renders, for the log.
-    std::string device_name() const;
-    std::string driver_name() const;
+    const std::string& device_name() const { return gpu_.device_name(); }
+    const std::string& driver_name() const { return gpu_.driver_name(); }
 
   private:
     struct Remembered;
@@ -46,7 +46,7 @@ class PictureSource {
 
     RenderedPicture render(const std::string& scene, const MethodSetting& method, PointPx fovea);
 
-    SizePx size_;
+    ViewGeometry view_;
     std::size_t capacity_;
     std::mutex mutex_;
     Gpu gpu_;

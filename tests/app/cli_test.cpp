@@ -1,4 +1,5 @@
-// The program from outside: exit codes, one clear line for each thing that cannot go on, and files that others read.
+// The program from outside: exit codes, one clear line for each thing that cannot go on, and files that
+// others read.
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -44,12 +45,13 @@ class Cli : public testing::Test {
 
     Run run(const std::string& arguments, const std::string& environment = "") const {
         const fs::path errors = folder_ / "stderr.txt";
-        const std::string command = "cd '" + folder_.string() + "' && " + environment + " " + PARAFOVEA_PROGRAM + " " +
-                                    arguments + " 2>'" + errors.string() + "'";
+        const std::string command = "cd '" + folder_.string() + "' && " + environment + " " +
+                                    PARAFOVEA_PROGRAM + " " + arguments + " 2>'" + errors.string() + "'";
         Run result;
         FILE* pipe = popen(command.c_str(), "r");
         std::array<char, 4096> buffer;
-        for (std::size_t n; (n = fread(buffer.data(), 1, buffer.size(), pipe)) > 0;) result.out.append(buffer.data(), n);
+        for (std::size_t n; (n = fread(buffer.data(), 1, buffer.size(), pipe)) > 0;)
+            result.out.append(buffer.data(), n);
         const int status = pclose(pipe);
         result.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
         result.errors = contents(errors);
@@ -69,10 +71,13 @@ void expect_one_line(const Run& result, const std::vector<std::string>& parts) {
     EXPECT_EQ(result.exit_code, 1) << result.errors;
     EXPECT_EQ(std::count(result.errors.begin(), result.errors.end(), '\n'), 1) << result.errors;
     for (const std::string& part : parts)
-        EXPECT_NE(result.errors.find(part), std::string::npos) << "missing \"" << part << "\" in: " << result.errors;
+        EXPECT_NE(result.errors.find(part), std::string::npos)
+            << "missing \"" << part << "\" in: " << result.errors;
 }
 
-std::string protocol(const std::string& name) { return contents(fs::path(PARAFOVEA_SOURCE_DIR) / "protocols" / name); }
+std::string protocol(const std::string& name) {
+    return contents(fs::path(PARAFOVEA_SOURCE_DIR) / "protocols" / name);
+}
 
 std::string replaced(std::string text, const std::string& from, const std::string& to) {
     const std::size_t at = text.find(from);
@@ -90,7 +95,8 @@ TEST_F(Cli, EverySubcommandHasHelpWithAnExample) {
     for (const char* command : {"simulate", "analyze", "plan", "check", "render", "foveate", "scenes"}) {
         const Run result = run(std::string(command) + " --help");
         EXPECT_EQ(result.exit_code, 0) << command;
-        EXPECT_NE(result.out.find("Example: parafovea " + std::string(command)), std::string::npos) << command;
+        EXPECT_NE(result.out.find("Example: parafovea " + std::string(command)), std::string::npos)
+            << command;
     }
 }
 
@@ -113,7 +119,8 @@ TEST_F(Cli, AnUnreadableCsvRowIsOneLineWithItsNumber) {
 }
 
 TEST_F(Cli, NoVulkanDeviceIsOneLine) {
-    expect_one_line(run("render --scene primitives --size 64x64 --out a.png", "VK_ICD_FILENAMES=/nowhere.json VK_DRIVER_FILES=/nowhere.json"),
+    expect_one_line(run("render --scene primitives --size 64x64 --out a.png",
+                        "VK_ICD_FILENAMES=/nowhere.json VK_DRIVER_FILES=/nowhere.json"),
                     {"Vulkan"});
 }
 
@@ -123,7 +130,9 @@ TEST_F(Cli, AnUnwritableFolderIsOneLine) {
     expect_one_line(run("analyze answers.csv --out blocked/results"), {"blocked"});
 }
 
-TEST_F(Cli, AMissingInputIsOneLine) { expect_one_line(run("analyze nowhere.sqlite --out results"), {"nowhere.sqlite"}); }
+TEST_F(Cli, AMissingInputIsOneLine) {
+    expect_one_line(run("analyze nowhere.sqlite --out results"), {"nowhere.sqlite"});
+}
 
 TEST_F(Cli, AParticipantWithoutANumberIsOneLine) {
     write("study.toml", protocol("final.toml"));
@@ -140,7 +149,8 @@ TEST_F(Cli, ThePlanIsTheSameForTheSameSeedAndAnotherForAnotherSeed) {
 
 TEST_F(Cli, RenderWritesItsStatistics) {
     const Run result =
-        run("render --scene primitives --method kfr --sigma 1.8 --alpha 4 --size 320x180 --out a.png --stats a.json");
+        run("render --scene primitives --method kfr --sigma 1.8 --alpha 4 --size 320x180 --out a.png --stats "
+            "a.json");
     ASSERT_EQ(result.exit_code, 0) << result.errors;
     EXPECT_GT(fs::file_size(folder_ / "a.png"), 1000u);
     const auto stats = nlohmann::json::parse(contents(folder_ / "a.json"));
@@ -163,7 +173,8 @@ TEST_F(Cli, AnalyzeReproducesThePublishedTable) {
     if (!fs::exists(table)) GTEST_SKIP() << table << " is not here";
     const Run result = run("analyze '" + table.string() + "' --out results");
     ASSERT_EQ(result.exit_code, 0) << result.errors;
-    for (const char* name : {"figure10.svg", "figure10.png", "figure10.pdf", "figure10.csv", "table1.csv", "table1.md", "report.html"})
+    for (const char* name : {"figure10.svg", "figure10.png", "figure10.pdf", "figure10.csv", "table1.csv",
+                             "table1.md", "report.html"})
         EXPECT_TRUE(fs::exists(folder_ / "results" / name)) << name;
     for (const char* q : {"1.72", "5.79", "8.20", "8.25", "7.49", "14.27", "5.48"})
         EXPECT_NE(result.out.find(q), std::string::npos) << q << " in\n" << result.out;

@@ -1,0 +1,42 @@
+// Makes gaze and controller sources from their names on the command line.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "app/simulated_person.h"
+#include "devices/clock.h"
+#include "devices/controller_source.h"
+#include "devices/gaze_source.h"
+
+namespace parafovea {
+
+// What sources are made from; all is borrowed.
+struct SourceParts {
+    Clock& clock;
+    SimulatedPerson& person;
+};
+
+// A source that is owned here, or that belongs to the parts.
+template <typename Source>
+struct ChosenSource {
+    std::unique_ptr<Source> owned;
+    Source* source = nullptr;
+};
+
+// "simulated", or "replay:FILE" with a recording that devices/gaze_recording.h reads. Throws std::runtime_error
+// with one line for another name and where the source cannot be opened.
+ChosenSource<GazeSource> choose_gaze(const std::string& name, const SourceParts& parts);
+
+// "simulated". Throws like choose_gaze.
+ChosenSource<ControllerSource> choose_controller(const std::string& name, const SourceParts& parts);
+
+// Whether a source of this name lives on whatever clock it is given, a simulated one too.
+bool gaze_keeps_any_clock(const std::string& name);
+bool controller_keeps_any_clock(const std::string& name);
+
+// Whether the tracker can follow calibration targets: a recording cannot.
+bool gaze_follows_targets(const std::string& name);
+
+}  // namespace parafovea
