@@ -6,7 +6,9 @@ packages=(
     libvulkan-dev mesa-vulkan-drivers vulkan-validationlayers glslc
     libsqlite3-dev libcli11-dev libtomlplusplus-dev nlohmann-json3-dev libtinygltf-dev libstb-dev libglm-dev
     libpng-dev libboost-dev gnuplot-nox fonts-dejavu-core
+    libopenxr-dev libopenxr-loader1 openxr-layer-corevalidation
     libgtest-dev libgmock-dev libbenchmark-dev
+    pkgconf libhidapi-dev libusb-1.0-0-dev umockdev libumockdev-dev
 )
 missing=()
 for package in "${packages[@]}"; do

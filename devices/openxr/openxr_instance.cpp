@@ -11,14 +11,17 @@ namespace parafovea {
 
 namespace {
 
-constexpr std::array kNeeded{XR_KHR_VULKAN_ENABLE2_EXTENSION_NAME, XR_KHR_CONVERT_TIMESPEC_TIME_EXTENSION_NAME};
-constexpr std::array kWanted{XR_EXT_EYE_GAZE_INTERACTION_EXTENSION_NAME, XR_KHR_VISIBILITY_MASK_EXTENSION_NAME,
-                             XR_FB_DISPLAY_REFRESH_RATE_EXTENSION_NAME, XR_VARJO_QUAD_VIEWS_EXTENSION_NAME};
+constexpr std::array kNeeded{XR_KHR_VULKAN_ENABLE2_EXTENSION_NAME,
+                             XR_KHR_CONVERT_TIMESPEC_TIME_EXTENSION_NAME};
+constexpr std::array kWanted{XR_EXT_EYE_GAZE_INTERACTION_EXTENSION_NAME,
+                             XR_KHR_VISIBILITY_MASK_EXTENSION_NAME, XR_FB_DISPLAY_REFRESH_RATE_EXTENSION_NAME,
+                             XR_VARJO_QUAD_VIEWS_EXTENSION_NAME};
 
 std::string meaning_of(XrResult result) {
     switch (result) {
         case XR_ERROR_RUNTIME_UNAVAILABLE:
-            return "no OpenXR runtime is active; start the headset's (Monado, SteamVR) or name its manifest in "
+            return "no OpenXR runtime is active; start the headset's (Monado, SteamVR) or name its manifest "
+                   "in "
                    "XR_RUNTIME_JSON";
         case XR_ERROR_RUNTIME_FAILURE:
         case XR_ERROR_INITIALIZATION_FAILED:
@@ -70,7 +73,8 @@ OpenXrInstance::~OpenXrInstance() {
 
 void OpenXrInstance::create_instance() {
     std::uint32_t count = 0;
-    check_openxr(xrEnumerateInstanceExtensionProperties(nullptr, 0, &count, nullptr), "looking for a runtime");
+    check_openxr(xrEnumerateInstanceExtensionProperties(nullptr, 0, &count, nullptr),
+                 "looking for a runtime");
     std::vector<XrExtensionProperties> offered(count, XrExtensionProperties{XR_TYPE_EXTENSION_PROPERTIES});
     check_openxr(xrEnumerateInstanceExtensionProperties(nullptr, count, &count, offered.data()),
                  "looking for a runtime");
@@ -79,8 +83,9 @@ void OpenXrInstance::create_instance() {
     };
     for (const char* name : kNeeded) {
         if (!is_offered(name))
-            throw std::runtime_error(std::string("the OpenXR runtime lacks ") + name +
-                                     ", without which pictures cannot be shown or timed; use another runtime");
+            throw std::runtime_error(
+                std::string("the OpenXR runtime lacks ") + name +
+                ", without which pictures cannot be shown or timed; use another runtime");
         extensions_.emplace_back(name);
     }
     for (const char* name : kWanted)
@@ -120,8 +125,7 @@ void OpenXrInstance::find_headset() {
 
     // The runtime insists on being asked before a session.
     XrGraphicsRequirementsVulkanKHR requirements{XR_TYPE_GRAPHICS_REQUIREMENTS_VULKAN_KHR};
-    const auto ask =
-        function<PFN_xrGetVulkanGraphicsRequirements2KHR>("xrGetVulkanGraphicsRequirements2KHR");
+    const auto ask = function<PFN_xrGetVulkanGraphicsRequirements2KHR>("xrGetVulkanGraphicsRequirements2KHR");
     check_openxr(ask(instance_, system_, &requirements), "asking for the needed Vulkan version");
     if (requirements.minApiVersionSupported > XR_MAKE_VERSION(1, 3, 0xffff))
         throw std::runtime_error("the OpenXR runtime " + runtime_name_ +
@@ -131,7 +135,8 @@ void OpenXrInstance::find_headset() {
 // The first that the runtime prefers of those that can be drawn.
 void OpenXrInstance::choose_views() {
     std::uint32_t count = 0;
-    check_openxr(xrEnumerateViewConfigurations(instance_, system_, 0, &count, nullptr), "asking for the views");
+    check_openxr(xrEnumerateViewConfigurations(instance_, system_, 0, &count, nullptr),
+                 "asking for the views");
     std::vector<XrViewConfigurationType> types(count);
     check_openxr(xrEnumerateViewConfigurations(instance_, system_, count, &count, types.data()),
                  "asking for the views");
@@ -143,8 +148,9 @@ void OpenXrInstance::choose_views() {
     if (chosen == types.end())
         throw std::runtime_error("the headset " + headset_name_ + " has no view for one or two eyes");
     view_configuration_ = *chosen;
-    check_openxr(xrEnumerateViewConfigurationViews(instance_, system_, view_configuration_, 0, &count, nullptr),
-                 "asking for the views' size");
+    check_openxr(
+        xrEnumerateViewConfigurationViews(instance_, system_, view_configuration_, 0, &count, nullptr),
+        "asking for the views' size");
     std::vector<XrViewConfigurationView> views(count,
                                                XrViewConfigurationView{XR_TYPE_VIEW_CONFIGURATION_VIEW});
     check_openxr(xrEnumerateViewConfigurationViews(instance_, system_, view_configuration_, count, &count,

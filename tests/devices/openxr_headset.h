@@ -1,0 +1,142 @@
+// Puts the simulated headset, under OpenXR's and Vulkan's validation layers, before a test.
+#pragma once
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <optional>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "devices/clock.h"
+#include "devices/openxr/openxr_session.h"
+#include "renderer/gpu.h"
+
+namespace parafovea {
+
+// A folder that is gone after the test.
+class TemporaryFolder {
+  public:
+    TemporaryFolder() {
+        std::string name = (std::filesystem::temp_directory_path() / "parafovea_openxr_XXXXXX").string();
+        path_ = mkdtemp(name.data());
+    }
+    ~TemporaryFolder() { std::filesystem::remove_all(path_); }
+    TemporaryFolder(const TemporaryFolder&) = delete;
+    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+
+    std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
+    const std::filesystem::path& path() const { return path_; }
+
+  private:
+    std::filesystem::path path_;
+};
+
+inline std::string text_of(const std::filesystem::path& path) {
+    std::ifstream file(path);
+    std::ostringstream text;
+    text << file.rdbuf();
+    return text.str();
+}
+
+// Everything up to a Vulkan device that the runtime made. The OpenXR validation layer writes to a file that
+// is read at the end; both layers must have said nothing.
+class Headset {
+  public:
+    explicit Headset(const std::string& settings) {
+        setenv("XR_RUNTIME_JSON", SIMULATED_HEADSET_JSON, 1);
+        setenv("XR_ENABLE_API_LAYERS", "XR_APILAYER_LUNARG_core_validation", 1);
+        setenv("XR_CORE_VALIDATION_EXPORT_TYPE", "text", 1);
+        setenv("XR_CORE_VALIDATION_FILE_NAME", (folder_ / "openxr.txt").c_str(), 1);
+        setenv("PARAFOVEA_HEADSET", ("log=" + log_path().string() + ";" + settings).c_str(), 1);
+        instance_.emplace();
+        GpuOptions options;
+        options.validation = true;
+        options.maker = {[this](const auto& info, VkInstance& made) {
+                             return instance_->make_vulkan_instance(info, made);
+                         },
+                         [this](VkInstance vulkan, VkPhysicalDevice& chosen) {
+                             return instance_->choose_vulkan_device(vulkan, chosen);
+                         },
+                         [this](VkPhysicalDevice physical, const auto& info, VkDevice& made) {
+                             return instance_->make_vulkan_device(physical, info, made);
+                         }};
+        gpu_ = std::make_unique<Gpu>(options);
+    }
+
+    // The session must be gone by now.
+    ~Headset() {
+        EXPECT_THAT(gpu_->validation_messages(), testing::IsEmpty());
+        gpu_.reset();
+        instance_.reset();
+        EXPECT_EQ(text_of(folder_ / "openxr.txt"), "");
+    }
+
+    const OpenXrInstance& instance() const { return *instance_; }
+    Gpu& gpu() { return *gpu_; }
+    OpenXrVulkan vulkan() const {
+        return {gpu_->instance(), gpu_->physical_device(), gpu_->device(), gpu_->queue_family()};
+    }
+
+    // The runtime's own account: a line a frame after the header.
+    std::filesystem::path log_path() const { return folder_ / "frames.csv"; }
+
+  private:
+    TemporaryFolder folder_;
+    std::optional<OpenXrInstance> instance_;
+    std::unique_ptr<Gpu> gpu_;
+};
+
+// Fills a view's image with one colour.
+inline void draw_colour(Gpu& gpu, VkImage image, std::array<float, 4> rgba) {
+    gpu.submit_and_wait([&](VkCommandBuffer commands) {
+        VkImageMemoryBarrier barrier{VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER};
+        barrier.oldLayout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
+        barrier.newLayout = VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL;
+        barrier.srcAccessMask = VK_ACCESS_MEMORY_WRITE_BIT;
+        barrier.dstAccessMask = VK_ACCESS_TRANSFER_WRITE_BIT;
+        barrier.image = image;
+        barrier.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
+        const auto wait = [&] {
+            vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT,
+                                 VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, 0, 0, nullptr, 0, nullptr, 1, &barrier);
+        };
+        wait();
+        const VkClearColorValue colour{{rgba[0], rgba[1], rgba[2], rgba[3]}};
+        vkCmdClearColorImage(commands, image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, &colour, 1,
+                             &barrier.subresourceRange);
+        std::swap(barrier.oldLayout, barrier.newLayout);
+        barrier.srcAccessMask = VK_ACCESS_TRANSFER_WRITE_BIT;
+        barrier.dstAccessMask = VK_ACCESS_MEMORY_READ_BIT | VK_ACCESS_MEMORY_WRITE_BIT;
+        wait();
+    });
+}
+
+// One turn: draws grey on every view if it will be seen.
+inline std::optional<OpenXrFrame> run_frame(OpenXrSession& session, Gpu& gpu) {
+    std::optional<OpenXrFrame> frame = session.begin_frame();
+    if (!frame) return frame;
+    bool drawn = frame->should_render && !frame->views.empty();
+    for (std::size_t i = 0; drawn && i < frame->views.size(); ++i) {
+        const std::optional<VkImage> image = session.acquire_image(i);
+        drawn = image.has_value();
+        if (!drawn) break;
+        draw_colour(gpu, *image, {0.5f, 0.5f, 0.5f, 1});
+        session.release_image(i);
+    }
+    session.end_frame(*frame, drawn);
+    return frame;
+}
+
+// Runs frames until the session has the focus.
+inline void run_until_focused(OpenXrSession& session, Gpu& gpu) {
+    for (int i = 0; i < 20 && session.update() != SessionState::focused; ++i) run_frame(session, gpu);
+    ASSERT_EQ(session.state(), SessionState::focused);
+}
+
+}  // namespace parafovea
