@@ -50,8 +50,8 @@ struct GapSettings {
 std::vector<std::optional<double>> gaze_velocity(std::span<const GazeSample> samples,
                                                  Duration window = {20'000'000});
 
-// Fixations, saccades, blinks and losses, in the order of time; what is none of these is left out. A loss shorter than
-// merge_gap may lie within a fixation.
+// Fixations, saccades, blinks and losses, in the order of time; what is none of these is left out. A loss
+// shorter than merge_gap may lie within a fixation.
 std::vector<EyeEvent> detect_by_velocity(std::span<const GazeSample> samples,
                                          const VelocityThresholdSettings& settings = {},
                                          const GapSettings& gaps = {});
