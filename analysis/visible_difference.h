@@ -8,9 +8,11 @@
 // over pixels, sum over bands, JOD.
 //
 // Where this differs from the publication:
-// - the foveal contrast sensitivity is the published one at 50 cd/m2, interpolated over spatial frequency, at
-//   every luminance. Over 10 to 300 cd/m2 sensitivity changes little; in dark pictures (below about 5 cd/m2)
-//   differences are therefore judged somewhat too visible, above all fine ones.
+// - the foveal contrast sensitivity is the published one at 50 cd/m2, interpolated over spatial frequency; at
+// other
+//   luminances it is scaled as stelaCSF says (Mantiuk, Ashraf and Chapiro, ACM TOG 41(4), 2022). Against the
+//   authors' program: within 0.1 JOD from 2 to 50 cd/m2; brighter, differences are judged more visible (0.3
+//   JOD at 200 cd/m2).
 // - pixels per degree away from the view's centre are the exact derivative 1 + tan^2, not a finite
 // difference.
 //
@@ -84,6 +86,7 @@ struct ContrastBands {
         // Per pixel, raised to the powers in which they are pooled: the contrast difference, and the masker.
         std::vector<float> difference;
         std::vector<float> masker;
+        std::vector<std::uint16_t> background_code;  // luminance in steps of 1/64 octave
     };
     DisplayModel display;
     bool identical = false;  // no band holds a difference of contrast: every gaze gives 0
@@ -125,7 +128,7 @@ VisibleDifference compare(const ContrastBands& bands, GazePx gaze, double sensit
 // JOD of a pooled difference Q >= 0: 10 - a Q^b.
 double jod_from_q(double q);
 
-// Sensitivity (1 / threshold contrast) at 50 cd/m2 and zero eccentricity, before the metric's overall gain.
-double foveal_sensitivity(double frequency_cpd);
+// Sensitivity (1 / threshold contrast) at zero eccentricity, before the metric's overall gain.
+double foveal_sensitivity(double frequency_cpd, double luminance_cd_m2 = 50);
 
 }  // namespace parafovea

@@ -88,14 +88,18 @@ void expand_row(const Level& in, int y, int out_width, std::vector<float>& narro
 PARAFOVEA_VECTORISED
 void contrast_row(const float* test, const float* reference, const float* test_low,
                   const float* reference_low, float test_background_share, float gain, int width,
-                  float* __restrict difference, float* __restrict masker) {
+                  float* __restrict difference, float* __restrict masker,
+                  std::uint16_t* __restrict background_code) {
     for (int x = 0; x < width; ++x) {
         const float mean = reference_low[x] + test_background_share * (test_low[x] - reference_low[x]);
         const float background = mean > kLeastBackground ? mean : kLeastBackground;
+        const float code = 0.5f + kLuminanceCodesPerOctave * (fast_log2(background) - kLog2OfFirstLuminance);
         const float scale = gain / background;
         float t = (test[x] - test_low[x]) * scale, r = (reference[x] - reference_low[x]) * scale;
         t = t > kMostContrast ? kMostContrast : (t < -kMostContrast ? -kMostContrast : t);
         r = r > kMostContrast ? kMostContrast : (r < -kMostContrast ? -kMostContrast : r);
+        background_code[x] = static_cast<std::uint16_t>(
+            static_cast<int>(code < kLuminanceCodes - 1 ? code : kLuminanceCodes - 1));
         const float apart = std::fabs(t - r);
         const float at = std::fabs(t), ar = std::fabs(r);
         difference[x] = fast_power(apart, kDifferencePower * kPoolingPower);
@@ -169,9 +173,12 @@ ContrastBands contrast_bands(const LuminancePyramid& test, const LuminancePyrami
     for (std::size_t b = 0; b + 1 < test.levels.size(); ++b) {
         const Level &t = test.levels[b], &r = reference.levels[b];
         const std::size_t pixels = t.luminance_cd_m2.size();
-        ContrastBands::Band band{t.width, t.height,
+        ContrastBands::Band band{t.width,
+                                 t.height,
                                  band_frequency_cpd(reference.display, static_cast<int>(b)),
-                                 std::vector<float>(pixels), std::vector<float>(pixels)};
+                                 std::vector<float>(pixels),
+                                 std::vector<float>(pixels),
+                                 std::vector<std::uint16_t>(pixels)};
         // Band-pass: the picture less its own blurred self, relative to the blurred background.
         std::vector<float> narrow(test.levels[b + 1].width + 4), test_low(t.width), reference_low(t.width);
         for (int y = 0; y < t.height; ++y) {
@@ -180,7 +187,8 @@ ContrastBands contrast_bands(const LuminancePyramid& test, const LuminancePyrami
             const std::size_t at = static_cast<std::size_t>(y) * t.width;
             // The finest band's kernel passes its frequency whole, the others' only half.
             contrast_row(row_of(t, y), row_of(r, y), test_low.data(), reference_low.data(), test_share,
-                         b == 0 ? 1.0f : 2.0f, t.width, &band.difference[at], &band.masker[at]);
+                         b == 0 ? 1.0f : 2.0f, t.width, &band.difference[at], &band.masker[at],
+                         &band.background_code[at]);
         }
         if (std::any_of(band.difference.begin(), band.difference.end(), [](float d) { return d > 0; }))
             bands.identical = false;

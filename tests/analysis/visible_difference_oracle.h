@@ -81,6 +81,18 @@ inline double foveal_sensitivity(double rho) {
     return std::exp(value(i) + t * (slope(i) + t * (quadratic + t * cubic)));
 }
 
+// stelaCSF's peak height and peak frequency over luminance, as published, without any limit taken.
+inline double luminance_factor(double rho, double l) {
+    const auto parabola = [&](double y) {
+        const double height =
+            std::pow(1 + 0.713964 / y, -0.277857) * -std::expm1(-8.50217e+09 * std::log1p(7.54866e-07 / y));
+        const double peak = 1.55909 * std::pow(1 + 103.604 / y, -0.251815);
+        const double d = rho < peak ? 0 : std::log10(rho) - std::log10(peak);
+        return height * std::pow(10, -d * d / std::pow(2, 0.177674));
+    };
+    return parabola(l) / parabola(50);
+}
+
 inline double pooled_q(RgbaView test, RgbaView reference, const DisplayModel& d, GazePx gaze,
                        double sensitivity = 1) {
     const double deg = 180 / std::acos(-1.0);
@@ -108,7 +120,8 @@ inline double pooled_q(RgbaView test, RgbaView reference, const DisplayModel& d,
                 const double e = std::isfinite(gaze.x + gaze.y) ? std::hypot(ax - gx, ay - gy) : 0;
                 const double oblique = 1 + (px * px + py * py) / (distance * distance);
                 const double magnification = std::pow(3.67 / (e + 3.67), 0.604562);
-                const double s = foveal_sensitivity(rho * oblique / magnification) *
+                const double f = rho * oblique / magnification;
+                const double s = foveal_sensitivity(f) * luminance_factor(f, background) *
                                  std::pow(10, 16.2596 / 20) * sensitivity;
 
                 const double mask = std::min(std::fabs(ct * s), std::fabs(cr * s)) * std::pow(10, -0.973838);

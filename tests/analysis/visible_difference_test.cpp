@@ -31,8 +31,8 @@ GreyPicture spliced(const GreyPicture& pattern, GreyPicture reference, int from_
     return reference;
 }
 
-// Answers of the authors' FovVideoVDP 1.2.3 (foveated, sRGB, 100 cd/m2, contrast 1000) to the same pictures
-// of 200x160 pixels, about 50 cd/m2 bright.
+// Answers of the authors' FovVideoVDP 1.2.3 (foveated, sRGB, contrast 1000; 100 cd/m2 where not stated) to
+// the same pictures of 200x160 pixels, half as bright as the display's peak.
 TEST(VisibleDifference, AgreesWithTheAuthorsProgramToATenthOfAJod) {
     const GreyPicture flat = flat_picture(200, 160, 188), texture = textured_picture(200, 160);
     const GreyPicture fine = with_noise(flat, 1, 8, 3), coarse = with_noise(flat, 8, 6, 4);
@@ -43,6 +43,7 @@ TEST(VisibleDifference, AgreesWithTheAuthorsProgramToATenthOfAJod) {
         double fov_deg;
         GazePx gaze;
         double jod;
+        double peak_cd_m2 = 100;
     };
     const GazePx centre{100, 80}, corner{0, 0}, outside{400, 80};
     const Row rows[] = {
@@ -66,12 +67,22 @@ TEST(VisibleDifference, AgreesWithTheAuthorsProgramToATenthOfAJod) {
         {"blur", blurred, texture, 40, centre, 8.136},
         {"blur", blurred, texture, 40, corner, 8.706},
         {"blur", blurred, texture, 40, outside, 9.410},
+        {"fine noise", fine, flat, 40, centre, 8.591, 20},
+        {"coarse noise", coarse, flat, 40, centre, 7.313, 20},
+        {"blur", blurred, texture, 40, centre, 8.585, 20},
+        {"on texture", noisy, texture, 40, outside, 9.572, 20},
+        {"fine noise", fine, flat, 40, centre, 9.157, 4},
+        {"coarse noise", coarse, flat, 40, outside, 8.880, 4},
+        {"blur", blurred, texture, 40, centre, 9.184, 4},
+        {"on texture", noisy, texture, 40, centre, 9.434, 4},
         {"on texture", noisy, texture, 40, centre, 9.057},
         {"on texture", noisy, texture, 40, outside, 9.437},
     };
     for (const Row& row : rows)
-        EXPECT_NEAR(jod(row.test, row.reference, display(200, 160, row.fov_deg), row.gaze), row.jod, 0.1)
-            << row.what << ", " << row.fov_deg << " deg, gaze " << row.gaze.x;
+        EXPECT_NEAR(jod(row.test, row.reference, DisplayModel{200, 160, row.fov_deg, row.peak_cd_m2, 1000, 0},
+                        row.gaze),
+                    row.jod, 0.1)
+            << row.peak_cd_m2 << " cd/m2, " << row.what << ", " << row.fov_deg << " deg, gaze " << row.gaze.x;
 }
 
 TEST(VisibleDifference, EqualsTheEquationsInDoublePixelByPixel) {
@@ -80,10 +91,11 @@ TEST(VisibleDifference, EqualsTheEquationsInDoublePixelByPixel) {
         for (const double fov : {3.0, 30.0, 110.0})
             for (const GazePx gaze : {GazePx{w * 0.5, h * 0.5}, {0.5, 0.5}, {-500, 2000}, {nan, 0}}) {
                 const GreyPicture reference = textured_picture(w, h);
+                // The tables of the fast form are good to 1 % of Q, 0.006 of the JODs below 10.
                 const RgbaPicture r = rgba_from(reference), t = rgba_from(with_noise(reference, 2, 30, 9));
                 const DisplayModel d = display(w, h, fov);
                 const double expected = oracle::pooled_q(t, r, d, gaze);
-                EXPECT_NEAR(compare(decompose(t, r, d), gaze).q, expected, 1e-3 * expected)
+                EXPECT_NEAR(compare(decompose(t, r, d), gaze).q, expected, 1e-2 * expected)
                     << w << "x" << h << ", " << fov << " deg, gaze " << gaze.x;
             }
 }
@@ -96,7 +108,7 @@ TEST(VisibleDifference, AKeenerEyeSeesWhatTheEquationsSayItSees) {
     for (const double sensitivity : {0.25, 0.7, 1.0, 1.4, 3.0}) {
         const double expected = oracle::pooled_q(t, r, display(64, 48, 20), {20, 30}, sensitivity);
         const double q = compare(bands, {20, 30}, sensitivity).q;
-        EXPECT_NEAR(q, expected, 1e-3 * expected) << sensitivity;
+        EXPECT_NEAR(q, expected, 1e-2 * expected) << sensitivity;
         EXPECT_GT(q, before);
         before = q;
     }
@@ -110,7 +122,7 @@ TEST(VisibleDifference, ColourChannelsWeighAsTheirLuminance) {
         for (std::size_t i = 0; i < 256; i += 3) changed.bytes[4 * i + c] = 160;
         const DisplayModel d{16, 16, 5, 200, 300, 2};
         const double expected = oracle::pooled_q(changed, reference, d, {8, 8});
-        EXPECT_NEAR(compare(decompose(changed, reference, d), {8, 8}).q, expected, 1e-3 * expected) << c;
+        EXPECT_NEAR(compare(decompose(changed, reference, d), {8, 8}).q, expected, 1e-2 * expected) << c;
     }
     for (std::size_t i = 0; i < 256; ++i) test.bytes[4 * i + 3] = 7;
     EXPECT_EQ(compare(decompose(test, reference, display(16, 16, 5)), {8, 8}).q, 0) << "alpha is ignored";
@@ -249,6 +261,16 @@ TEST(VisibleDifference, SensitivityPassesThroughThePublishedValues) {
     const double published[] = {46, 93, 119, 97, 52, 19, 4.5, 0.8};
     for (int i = 0; i < 8; ++i) EXPECT_NEAR(foveal_sensitivity(std::ldexp(0.25, i)), published[i], 1e-9);
     for (double f = 1; f < 300; f *= 1.1) EXPECT_LT(foveal_sensitivity(f * 1.1), foveal_sensitivity(f));
+}
+
+TEST(VisibleDifference, SensitivityRisesWithLuminanceMostForFineDetail) {
+    for (const double f : {0.5, 2.0, 8.0, 32.0})
+        for (double l = 0.1; l < 100; l *= 2)
+            EXPECT_GE(foveal_sensitivity(f, 2 * l), foveal_sensitivity(f, l));
+    EXPECT_LT(foveal_sensitivity(16, 1) / foveal_sensitivity(16, 50),
+              foveal_sensitivity(1, 1) / foveal_sensitivity(1, 50));
+    // Between the laws of de Vries and Rose (square root) and Weber (none).
+    EXPECT_GT(foveal_sensitivity(1, 1) / foveal_sensitivity(1, 50), std::sqrt(1.0 / 50));
 }
 
 TEST(FastPower, KeepsItsStatedErrorBounds) {
