@@ -26,8 +26,6 @@ using std::exp;
 using std::floor;
 using std::log;
 using std::pow;
-using std::asin;
-using std::sin;
 using std::sqrt;
 
 struct vec2 {

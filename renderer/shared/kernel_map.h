@@ -5,8 +5,8 @@
 // As printed in Eq. 10:          u / w = K^-1(ln r / L)     r = exp(L * K(u / w))
 // Both:                          v / h = theta / 2 pi, theta in [0, 2 pi) from +x towards +y (down).
 //
-// Screen positions are pixels from the top left corner, pixel (i, j) centred at (i + 0.5, j + 0.5). Buffer positions
-// are texels, texel (a, b) centred at (a + 0.5, b + 0.5); the buffer wraps in v and clamps in u.
+// Screen positions are pixels from the top left corner, pixel (i, j) centred at (i + 0.5, j + 0.5). Buffer
+// positions are texels, texel (a, b) centred at (a + 0.5, b + 0.5); the buffer wraps in v and clamps in u.
 #ifndef PARAFOVEA_KERNEL_MAP_H
 #define PARAFOVEA_KERNEL_MAP_H
 
@@ -14,12 +14,12 @@
 
 SHARED_BEGIN
 
-const uint kKernelPower = 0u;       // x^alpha
-const uint kKernelPolynomial = 1u;  // beta_1 x + ... + beta_8 x^8, the betas adding up to 1 (Eq. 9)
-const uint kKernelSine = 2u;        // sin(x pi / 2)
+const uint kKernelPower = 0u;        // x^alpha
+const uint kKernelPolynomial = 1u;   // beta_1 x + ... + beta_8 x^8, the betas adding up to 1 (Eq. 9)
+const uint kKernelSine = 2u;         // sin(x pi / 2)
 const uint kKernelExponential = 3u;  // (e^x - 1) / (e - 1)
 
-const float kPi = 3.14159265358979f;
+const float kMapPi = 3.14159265358979f;
 
 // Uniform block; std140. Sizes in pixels or texels as floats.
 struct KernelMap {
@@ -36,17 +36,55 @@ struct KernelMap {
     vec4 beta_high;  // beta_5 .. beta_8
 };
 
+// arctan(x) for x in [0, 1], to 2e-8 (Abramowitz and Stegun 1964, 4.4.49). Vulkan lets atan() be off by 4096
+// ULP.
+SHARED_FUNCTION float arctan_unit(float x) {
+    float s = x * x;
+    float p = 0.0028662257f;
+    p = p * s - 0.0161657367f;
+    p = p * s + 0.0429096138f;
+    p = p * s - 0.0752896400f;
+    p = p * s + 0.1065626393f;
+    p = p * s - 0.1420889944f;
+    p = p * s + 0.1999355085f;
+    p = p * s - 0.3333314528f;
+    return x + x * s * p;
+}
+
+// (cos, sin) of an angle given in turns, to 1e-7. Vulkan lets sin() and cos() be off by 2^-11.
+SHARED_FUNCTION vec2 unit_vector(float turns) {
+    float quarter = floor(turns * 4.0f + 0.5f);
+    float x = (turns - quarter * 0.25f) * (2.0f * kMapPi);
+    float s = x * x;
+    float sine =
+        x *
+        (1.0f + s * (-1.0f / 6.0f + s * (1.0f / 120.0f + s * (-1.0f / 5040.0f + s * (1.0f / 362880.0f)))));
+    float cosine = 1.0f + s * (-0.5f + s * (1.0f / 24.0f + s * (-1.0f / 720.0f + s * (1.0f / 40320.0f))));
+    float turn_quarter = quarter - 4.0f * floor(quarter * 0.25f);
+    if (turn_quarter < 0.5f) return vec2(cosine, sine);
+    if (turn_quarter < 1.5f) return vec2(-sine, cosine);
+    if (turn_quarter < 2.5f) return vec2(-cosine, -sine);
+    return vec2(sine, -cosine);
+}
+
+// arcsin(y) for y in [0, 1], in quarter turns, to 1e-7.
+SHARED_FUNCTION float arcsine_quarters(float y) {
+    float cosine = sqrt((1.0f - y) * (1.0f + y));
+    if (y <= cosine) return arctan_unit(y / cosine) * (2.0f / kMapPi);
+    return 1.0f - arctan_unit(cosine / y) * (2.0f / kMapPi);
+}
+
 SHARED_FUNCTION float polynomial_kernel(KernelMap map, float x) {
     float high = map.beta_high.x + x * (map.beta_high.y + x * (map.beta_high.z + x * map.beta_high.w));
-    return x * (map.beta_low.x +
-                x * (map.beta_low.y + x * (map.beta_low.z + x * (map.beta_low.w + x * high))));
+    return x *
+           (map.beta_low.x + x * (map.beta_low.y + x * (map.beta_low.z + x * (map.beta_low.w + x * high))));
 }
 
 // K(x) for x in [0, 1]; K(0) = 0, K(1) = 1, rising.
 SHARED_FUNCTION float kernel(KernelMap map, float x) {
     if (map.kernel == kKernelPower) return x <= 0.0f ? 0.0f : pow(x, map.alpha);
     if (map.kernel == kKernelPolynomial) return polynomial_kernel(map, x);
-    if (map.kernel == kKernelSine) return sin(x * (0.5f * kPi));
+    if (map.kernel == kKernelSine) return unit_vector(0.25f * x).y;
     return (exp(x) - 1.0f) * (1.0f / 1.71828182845905f);
 }
 
@@ -66,22 +104,8 @@ SHARED_FUNCTION float inverse_kernel(KernelMap map, float y) {
         }
         return 0.5f * (low + high);
     }
-    if (map.kernel == kKernelSine) return asin(min(y, 1.0f)) * (2.0f / kPi);
+    if (map.kernel == kKernelSine) return arcsine_quarters(clamp(y, 0.0f, 1.0f));
     return log(1.0f + y * 1.71828182845905f);
-}
-
-// arctan(x) for x in [0, 1], to 2e-8 (Abramowitz and Stegun 1964, 4.4.49). Vulkan lets atan() be off by 4096 ULP.
-SHARED_FUNCTION float arctan_unit(float x) {
-    float s = x * x;
-    float p = 0.0028662257f;
-    p = p * s - 0.0161657367f;
-    p = p * s + 0.0429096138f;
-    p = p * s - 0.0752896400f;
-    p = p * s + 0.1065626393f;
-    p = p * s - 0.1420889944f;
-    p = p * s + 0.1999355085f;
-    p = p * s - 0.3333314528f;
-    return x + x * s * p;
 }
 
 // The angle of (x, y) in turns, in [0, 1); 0 for the zero vector.
@@ -90,28 +114,15 @@ SHARED_FUNCTION float turns_of(float x, float y) {
     float ay = abs(y);
     float larger = max(ax, ay);
     if (larger <= 0.0f) return 0.0f;
-    float turns = arctan_unit(min(ax, ay) / larger) * (0.5f / kPi);
+    float turns = arctan_unit(min(ax, ay) / larger) * (0.5f / kMapPi);
     if (ay > ax) turns = 0.25f - turns;
     if (x < 0.0f) turns = 0.5f - turns;
     if (y < 0.0f) turns = 1.0f - turns;
     return turns >= 1.0f ? 0.0f : turns;
 }
 
-// (cos, sin) of an angle given in turns, to 1e-7. Vulkan lets sin() and cos() be off by 2^-11.
-SHARED_FUNCTION vec2 unit_vector(float turns) {
-    float quarter = floor(turns * 4.0f + 0.5f);
-    float x = (turns - quarter * 0.25f) * (2.0f * kPi);
-    float s = x * x;
-    float sine = x * (1.0f + s * (-1.0f / 6.0f + s * (1.0f / 120.0f + s * (-1.0f / 5040.0f + s * (1.0f / 362880.0f)))));
-    float cosine = 1.0f + s * (-0.5f + s * (1.0f / 24.0f + s * (-1.0f / 720.0f + s * (1.0f / 40320.0f))));
-    float turn_quarter = quarter - 4.0f * floor(quarter * 0.25f);
-    if (turn_quarter < 0.5f) return vec2(cosine, sine);
-    if (turn_quarter < 1.5f) return vec2(-sine, cosine);
-    if (turn_quarter < 2.5f) return vec2(-cosine, -sine);
-    return vec2(sine, -cosine);
-}
-
-// Screen position to buffer position (Algorithm 1). r < 1 counts as r = 1. u in [0, w] on screen, v in [0, h).
+// Screen position to buffer position (Algorithm 1). r < 1 counts as r = 1. u in [0, w] on screen, v in [0,
+// h).
 SHARED_FUNCTION vec2 buffer_from_screen(KernelMap map, vec2 position) {
     float x = position.x - map.gaze.x;
     float y = position.y - map.gaze.y;
@@ -124,7 +135,8 @@ SHARED_FUNCTION vec2 buffer_from_screen(KernelMap map, vec2 position) {
 // Distance from the gaze, in pixels, of buffer column position u (Algorithm 2).
 SHARED_FUNCTION float radius_of_column(KernelMap map, float u) {
     float radial = clamp(u / map.buffer_size.x, 0.0f, 1.0f);
-    return exp(map.log_max_radius * (map.as_printed == 0u ? inverse_kernel(map, radial) : kernel(map, radial)));
+    return exp(map.log_max_radius *
+               (map.as_printed == 0u ? inverse_kernel(map, radial) : kernel(map, radial)));
 }
 
 // Buffer position to screen position (Algorithm 2); may lie off the screen.
@@ -138,9 +150,17 @@ SHARED_FUNCTION vec2 screen_from_buffer(KernelMap map, vec2 position) {
 SHARED_FUNCTION vec2 sample_spacing(KernelMap map, vec2 position) {
     float low = radius_of_column(map, position.x - 0.5f);
     float high = radius_of_column(map, position.x + 0.5f);
-    return vec2(high - low, radius_of_column(map, position.x) * (2.0f * kPi) / map.buffer_size.y);
+    return vec2(high - low, radius_of_column(map, position.x) * (2.0f * kMapPi) / map.buffer_size.y);
 }
 
 SHARED_END
+
+#ifdef __cplusplus
+#include <cstddef>
+static_assert(offsetof(parafovea::shared::KernelMap, gaze) == 16);
+static_assert(offsetof(parafovea::shared::KernelMap, kernel) == 32);
+static_assert(offsetof(parafovea::shared::KernelMap, beta_low) == 48);
+static_assert(sizeof(parafovea::shared::KernelMap) == 80);
+#endif
 
 #endif

@@ -54,7 +54,7 @@ TEST(Gpu, RecordsWhatValidationSays) {
     GpuImage image(gpu, {.format = VK_FORMAT_R8G8B8A8_UNORM,
                          .width = 4,
                          .height = 4,
-                         .usage = VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT});
+                         .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT});
     gpu.submit_and_wait([&](VkCommandBuffer commands) {
         const VkClearColorValue red{{1, 0, 0, 1}};
         const VkImageSubresourceRange range{VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};

@@ -1,0 +1,60 @@
+// Shades every pixel.
+#include "renderer/methods/full_method.h"
+
+#include <array>
+#include <span>
+
+#include "renderer/methods/method_parameters.h"
+#include "shader_code/full_meshes.h"
+#include "shader_code/full_picture.h"
+#include "shader_code/full_primitives.h"
+
+namespace parafovea {
+namespace {
+
+std::span<const std::uint32_t> code_for(ShadedThing thing) {
+    switch (thing) {
+        case ShadedThing::meshes:
+            return shader_code::full_meshes;
+        case ShadedThing::primitives:
+            return shader_code::full_primitives;
+        case ShadedThing::picture:
+            return shader_code::full_picture;
+    }
+    return {};
+}
+
+}  // namespace
+
+FullMethod::FullMethod(Gpu& gpu, const ShadingSource& source, VkFormat target_format)
+    : layout_(make_pipeline_layout(gpu, {source.layout})),
+      pipeline_(make_fullscreen_pipeline(gpu, code_for(source.thing), layout_.get(), {target_format},
+                                         source.constants)) {}
+
+void FullMethod::configure(const RenderMethod& method) {
+    MethodParameters(method).check_all_taken();
+}
+
+void FullMethod::prepare(SizePx screen, PointPx) {
+    screen_ = screen;
+}
+
+void FullMethod::record(const MethodFrame& frame) {
+    frame.timer->start(frame.commands, "pass_1");
+    begin_rendering(frame.commands, frame.target->extent(),
+                    {ColorTarget{.view = frame.target->view(), .discard = true}});
+    draw_fullscreen(frame.commands, pipeline_.get(), layout_.get(), std::array{frame.shading_set});
+    vkCmdEndRendering(frame.commands);
+    frame.timer->stop(frame.commands);
+}
+
+MethodStatistics FullMethod::statistics() const {
+    MethodStatistics statistics;
+    statistics.buffer = screen_;
+    statistics.shaded_samples =
+        static_cast<std::uint64_t>(screen_.width) * static_cast<std::uint64_t>(screen_.height);
+    statistics.built = {{"shading at every pixel", "full resolution"}};
+    return statistics;
+}
+
+}  // namespace parafovea

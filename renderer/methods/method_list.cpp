@@ -1,0 +1,43 @@
+// The one list of methods: a new method is a line in each function.
+#include "renderer/methods/method_list.h"
+
+#include <stdexcept>
+
+#include "renderer/methods/full_method.h"
+#include "renderer/methods/kfr_method.h"
+#include "renderer/methods/method_parameters.h"
+
+namespace parafovea {
+namespace {
+
+constexpr VkFormat kTargetFormat = VK_FORMAT_R8G8B8A8_SRGB;
+
+[[noreturn]] void refuse(const std::string& name) {
+    std::string names;
+    for (const MethodName& known : method_names()) names += (names.empty() ? "" : ", ") + known.name;
+    throw std::runtime_error("unknown method \"" + name + "\"; there are: " + names);
+}
+
+}  // namespace
+
+const std::vector<MethodName>& method_names() {
+    static const std::vector<MethodName> names{
+        {"full", "full resolution, one sample per pixel"},
+        {"kfr", "kernel foveated rendering (Meng et al. 2018): a reduced log-polar buffer"},
+    };
+    return names;
+}
+
+std::unique_ptr<FoveationMethod> make_method(Gpu& gpu, const std::string& name, const ShadingSource& source) {
+    if (name == "full") return std::make_unique<FullMethod>(gpu, source, kTargetFormat);
+    if (name == "kfr") return std::make_unique<KfrMethod>(gpu, source, KfrFormats{.target = kTargetFormat});
+    refuse(name);
+}
+
+void check(const RenderMethod& method) {
+    if (method.name == "full") return MethodParameters(method).check_all_taken();
+    if (method.name == "kfr") return static_cast<void>(kfr_setting(method));
+    refuse(method.name);
+}
+
+}  // namespace parafovea

@@ -1,0 +1,251 @@
+// Kernel foveated rendering: culling changes no pixel, counts are exact, the fovea is kept, the gaze is
+// followed.
+#include "renderer/methods/kfr_method.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "tests/renderer/kernel_map_oracle.h"
+#include "tests/renderer/picture_method.h"
+
+namespace parafovea {
+namespace {
+
+RenderMethod kfr(std::map<std::string, double> numbers = {}, std::map<std::string, std::string> words = {}) {
+    return {"kfr", std::move(numbers), std::move(words)};
+}
+
+// Texels in the bilinear footprint of a pixel, found from the equations, by marking from every pixel.
+std::set<std::pair<int, int>> texels_read(const oracle::Map& truth) {
+    const int w = static_cast<int>(truth.w()), h = static_cast<int>(truth.h());
+    std::set<std::pair<int, int>> read;
+    for (int y = 0; y < truth.screen.height; ++y) {
+        for (int x = 0; x < truth.screen.width; ++x) {
+            const oracle::Position p = truth.to_buffer({x + 0.5L, y + 0.5L});
+            const int a = static_cast<int>(std::floor(p.x - 0.5L)),
+                      b = static_cast<int>(std::floor(p.y - 0.5L));
+            for (const int i : {a, a + 1}) {
+                for (const int j : {b, b + 1}) read.insert({std::clamp(i, 0, w - 1), (j + h) % h});
+            }
+        }
+    }
+    return read;
+}
+
+struct Case {
+    PointPx gaze;
+    std::map<std::string, double> numbers;
+    std::map<std::string, std::string> words;
+};
+
+std::vector<Case> culling_cases(SizePx size) {
+    const double w = size.width, h = size.height;
+    std::vector<Case> cases;
+    for (const PointPx gaze :
+         {PointPx{w / 2, h / 2}, PointPx{w / 2 + 0.5, h / 2 + 0.5}, PointPx{0, 0}, PointPx{w, h},
+          PointPx{0.3 * w + 0.1, 0.8 * h}, PointPx{-500, h / 2}, PointPx{w + 30, -20}, PointPx{1e6, 1e6}}) {
+        cases.push_back({gaze, {}, {}});
+    }
+    for (const double alpha : {0.5, 1.0, 2.0, 6.0, 16.0})
+        cases.push_back({{w / 2, h / 2}, {{"alpha", alpha}}, {}});
+    for (const double sigma : {0.7, 1.2, 2.4, 20.0})
+        cases.push_back({{w / 3, h / 3}, {{"sigma", sigma}}, {}});
+    cases.push_back({{w / 2, h / 2}, {{"as_printed", 1}}, {}});
+    cases.push_back({{10, 10}, {{"as_printed", 1}, {"alpha", 2}}, {}});
+    cases.push_back({{w / 2, h / 2}, {}, {{"kernel", "sine"}}});
+    cases.push_back({{w / 2, h / 2}, {}, {{"kernel", "exponential"}}});
+    cases.push_back({{w / 2, h / 2}, {{"beta_1", 0.25}, {"beta_3", 0.75}}, {{"kernel", "polynomial"}}});
+    return cases;
+}
+
+TEST(KfrMethod, PictureIsBitByBitTheSameWithAndWithoutCulling) {
+    Gpu gpu({.validation = true});
+    for (const SizePx size : {SizePx{320, 180}, SizePx{91, 140}, SizePx{1, 1}, SizePx{3, 200}}) {
+        for (const double filter : {0.0, 1.0}) {
+            // Drawn in turn, so that what is not shaded holds the remains of other gazes.
+            PictureMethod culled(gpu, noise_picture(size), "kfr");
+            PictureMethod whole(gpu, noise_picture(size), "kfr");
+            for (Case c : culling_cases(size)) {
+                c.numbers["internal_filter"] = filter;
+                c.numbers["culling"] = 1;
+                const Image with = culled.draw(kfr(c.numbers, c.words), c.gaze);
+                c.numbers["culling"] = 0;
+                const Image without = whole.draw(kfr(c.numbers, c.words), c.gaze);
+                EXPECT_TRUE(with == without) << size.width << "x" << size.height << " gaze " << c.gaze.x
+                                             << ", " << c.gaze.y << " filter " << filter;
+                EXPECT_LE(culled.statistics().shaded_samples, whole.statistics().shaded_samples);
+            }
+        }
+    }
+    EXPECT_TRUE(gpu.validation_messages().empty()) << gpu.validation_messages().front();
+}
+
+TEST(KfrMethod, ShadesEveryTexelThatIsReadAndHardlyAnyOther) {
+    Gpu gpu({.validation = true});
+    const SizePx size{320, 180};
+    PictureMethod method(gpu, smooth_picture(size), "kfr");
+    for (const PointPx gaze : {PointPx{160, 90}, PointPx{0, 0}, PointPx{250.25, 37.5}, PointPx{-50, 200}}) {
+        for (const double alpha : {1.0, 4.0, 6.0}) {
+            method.draw(kfr({{"alpha", alpha}, {"internal_filter", 0}}), gaze);
+            const double read = static_cast<double>(texels_read({size, gaze, {.alpha = alpha}}).size());
+            EXPECT_GE(static_cast<double>(method.statistics().shaded_samples), read);
+            EXPECT_LE(static_cast<double>(method.statistics().shaded_samples), 1.01 * read + 8);
+        }
+    }
+}
+
+TEST(KfrMethod, ShadesAtMost26PercentAtThePapersSetting) {
+    Gpu gpu;
+    for (const SizePx size : {SizePx{1280, 720}, SizePx{1920, 1080}}) {
+        PictureMethod method(gpu, smooth_picture(size), "kfr");
+        const double pixels = static_cast<double>(size.width) * size.height;
+        method.draw(kfr(), centre_of(size));
+        EXPECT_LE(static_cast<double>(method.statistics().shaded_samples), 0.26 * pixels);
+        method.draw(kfr({{"culling", 0}}), centre_of(size));
+        EXPECT_NEAR(static_cast<double>(method.statistics().shaded_samples), 0.309 * pixels, 0.001 * pixels);
+    }
+}
+
+TEST(KfrMethod, CornerGazeShadesAQuarterOfWhatACentredOneDoes) {
+    Gpu gpu;
+    const SizePx size{640, 360};
+    PictureMethod method(gpu, smooth_picture(size), "kfr");
+    method.draw(kfr(), centre_of(size));
+    const std::uint64_t centred = method.statistics().shaded_samples;
+    method.draw(kfr(), {0, 0});
+    EXPECT_LT(method.statistics().shaded_samples, 0.35 * static_cast<double>(centred));
+}
+
+TEST(KfrMethod, SameInputGivesTheSameBitsWhateverWasDrawnBefore) {
+    Gpu gpu({.validation = true});
+    const SizePx size{320, 180};
+    const Image picture = noise_picture(size);
+    PictureMethod first(gpu, picture, "kfr");
+    const Image wanted = first.draw(kfr(), {100, 90});
+    PictureMethod second(gpu, picture, "kfr");
+    second.draw(kfr({{"sigma", 2.4}, {"alpha", 1}, {"post_filter", 1}}), {0, 0});
+    second.draw(kfr(), {200, 20});
+    EXPECT_TRUE(second.draw(kfr(), {100, 90}) == wanted);
+    EXPECT_TRUE(second.draw(kfr(), {100, 90}) == wanted);
+    EXPECT_TRUE(gpu.validation_messages().empty());
+}
+
+double largest_difference(const Image& a, const Image& b, PointPx centre, double from_px, double to_px) {
+    int largest = 0;
+    for (int y = 0; y < a.size.height; ++y) {
+        for (int x = 0; x < a.size.width; ++x) {
+            const double r = std::hypot(x + 0.5 - centre.x, y + 0.5 - centre.y);
+            if (r < from_px || r >= to_px) continue;
+            for (int c = 0; c < 3; ++c) {
+                const std::size_t i =
+                    static_cast<std::size_t>(y * a.size.width + x) * 4 + static_cast<std::size_t>(c);
+                largest = std::max(largest, std::abs(a.rgba[i] - b.rgba[i]));
+            }
+        }
+    }
+    return largest;
+}
+
+TEST(KfrMethod, SmoothPictureStaysWhatItIsEverywhereSeamIncluded) {
+    Gpu gpu({.validation = true});
+    const SizePx size{640, 360};
+    const Image picture = smooth_picture(size);
+    PictureMethod full(gpu, picture, "full");
+    PictureMethod foveated(gpu, picture, "kfr");
+    const Image reference = full.draw({}, {});
+    for (const PointPx gaze : {centre_of(size), PointPx{100.5, 300.5}, PointPx{639, 1}}) {
+        for (const double alpha : {1.0, 4.0}) {
+            const Image found = foveated.draw(kfr({{"alpha", alpha}}), gaze);
+            EXPECT_LE(largest_difference(reference, found, gaze, 0, 60), 4) << alpha;
+            EXPECT_LE(largest_difference(reference, found, gaze, 0, 1e9), 12) << alpha;
+        }
+    }
+    EXPECT_TRUE(gpu.validation_messages().empty());
+}
+
+TEST(KfrMethod, DetailIsLostAwayFromTheGazeAndFollowsIt) {
+    Gpu gpu;
+    const SizePx size{640, 360};
+    const Image picture = noise_picture(size);
+    PictureMethod full(gpu, picture, "full");
+    PictureMethod foveated(gpu, picture, "kfr");
+    const Image reference = full.draw({}, {});
+    const auto error_at = [&](const Image& image, PointPx place) {
+        double sum = 0;
+        int count = 0;
+        for (int y = static_cast<int>(place.y) - 15; y < place.y + 15; ++y) {
+            for (int x = static_cast<int>(place.x) - 15; x < place.x + 15; ++x, ++count) {
+                const std::size_t i = static_cast<std::size_t>(y * size.width + x) * 4;
+                sum += std::abs(image.rgba[i] - reference.rgba[i]);
+            }
+        }
+        return sum / count;
+    };
+    for (const PointPx gaze : {PointPx{100, 180}, PointPx{540, 180}}) {
+        const PointPx away{640 - gaze.x, gaze.y};
+        const Image found = foveated.draw(kfr(), gaze);
+        EXPECT_LT(1.5 * error_at(found, gaze), error_at(found, away));
+    }
+}
+
+TEST(KfrMethod, GazeThatIsNoNumberIsTheCentre) {
+    Gpu gpu({.validation = true});
+    const SizePx size{320, 180};
+    PictureMethod method(gpu, noise_picture(size), "kfr");
+    EXPECT_TRUE(method.draw(kfr(), {std::nan(""), std::nan("")}) == method.draw(kfr(), centre_of(size)));
+}
+
+TEST(KfrMethod, PostFilterSmoothsThePeripheryOnlyAndNothingWhenOff) {
+    Gpu gpu({.validation = true});
+    const SizePx size{640, 360};
+    PictureMethod method(gpu, noise_picture(size), "kfr");
+    const PointPx gaze = centre_of(size);
+    const Image plain = method.draw(kfr({{"post_filter", 0}}), gaze);
+    const Image smoothed = method.draw(kfr({{"post_filter", 1}}), gaze);
+    EXPECT_TRUE(plain == method.draw(kfr(), gaze));
+    const double radius = std::hypot(320, 180);
+    EXPECT_LE(largest_difference(plain, smoothed, gaze, 0, 0.099 * radius), 1);  // half-float storage between
+    EXPECT_GT(largest_difference(plain, smoothed, gaze, 0.11 * radius, 0.2 * radius), 10);
+    EXPECT_TRUE(gpu.validation_messages().empty());
+}
+
+TEST(MethodList, RefusesUnknownMethodsParametersAndValuesInOneLine) {
+    const auto message = [](const RenderMethod& method) {
+        try {
+            check(method);
+        } catch (const std::runtime_error& error) {
+            return std::string(error.what());
+        }
+        return std::string();
+    };
+    EXPECT_EQ(message({}), "");
+    EXPECT_EQ(message(kfr({{"sigma", 1.2}, {"alpha", 3}, {"culling", 0}}, {{"kernel", "sine"}})), "");
+    EXPECT_NE(message({"kfz", {}, {}}).find("there are: full, kfr"), std::string::npos);
+    EXPECT_NE(message(kfr({{"sigmma", 1.2}})).find("\"sigmma\""), std::string::npos);
+    EXPECT_NE(message({"full", {{"sigma", 1.8}}, {}}).find("\"sigma\""), std::string::npos);
+    EXPECT_NE(message(kfr({{"sigma", -1}})).find("sigma = -1"), std::string::npos);
+    EXPECT_NE(message(kfr({{"culling", 0.5}})).find("0 or 1"), std::string::npos);
+    EXPECT_NE(message(kfr({}, {{"kernel", "cubic"}})).find("\"cubic\""), std::string::npos);
+}
+
+TEST(MethodList, EveryMethodOfTheListIsMadeAndDrawsTheSamePictureTwice) {
+    Gpu gpu({.validation = true});
+    const SizePx size{160, 90};
+    const Image picture = noise_picture(size);
+    for (const MethodName& name : method_names()) {
+        SCOPED_TRACE(name.name);
+        EXPECT_NO_THROW(check({name.name, {}, {}}));
+        PictureMethod method(gpu, picture, name.name);
+        const Image once = method.draw({name.name, {}, {}}, {70, 40});
+        EXPECT_TRUE(once == method.draw({name.name, {}, {}}, {70, 40}));
+        EXPECT_LE(method.statistics().shaded_samples, 160U * 90U);
+        EXPECT_GT(method.statistics().shaded_samples, 0U);
+    }
+    EXPECT_TRUE(gpu.validation_messages().empty());
+}
+
+}  // namespace
+}  // namespace parafovea
