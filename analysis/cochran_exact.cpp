@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t kMostColumns = 20;
 constexpr std::int64_t kMostStates = 4'000'000;
-constexpr std::int64_t kMostDrawnCells = 400'000'000;
+constexpr std::int64_t kMostDrawnCells = 16'000'000;
 
 // One way to add a row of ones to sorted totals: which positions grow, and how many arrangements of the row
 // do just that.

@@ -5,6 +5,7 @@
 #include <array>
 
 #include "analysis/number_text.h"
+#include "analysis/parallel.h"
 
 namespace parafovea {
 namespace {
@@ -80,9 +81,11 @@ std::size_t width_of(const std::string& text) {
 CochranTable cochran_table(const Tally& tally, std::uint64_t seed) {
     CochranTable table;
     table.participants = static_cast<std::int64_t>(tally.participants().size());
-    for (double sigma : tally.sigmas()) {
-        BlockTable blocks = tally.blocks(sigma, BlockKind::participant_session);
-        if (blocks.alphas.size() < 2) continue;
+    std::vector<std::optional<CochranRow>> rows(tally.sigmas().size());
+    parallel_for(rows.size(), [&](std::size_t i) {
+        const double sigma = tally.sigmas()[i];
+        const BlockTable blocks = tally.blocks(sigma, BlockKind::participant_session);
+        if (blocks.alphas.size() < 2) return;
         CochranQOptions options;
         options.seed = seed;
         CochranRow row;
@@ -90,12 +93,18 @@ CochranTable cochran_table(const Tally& tally, std::uint64_t seed) {
         row.alphas = blocks.alphas;
         row.q = cochran_q(blocks.table, options);
         row.by_participant = cochran_q(tally.blocks(sigma, BlockKind::participant).table, options);
+        // Fewer permutations for very many participants; the report gives the standard error.
+        const auto cells =
+            static_cast<std::int64_t>(std::max<std::size_t>(blocks.participant_sums.size(), 1));
         row.permutation =
-            permute_within_participants(blocks.participant_sums, blocks.alphas.size(), 19'999, seed);
+            permute_within_participants(blocks.participant_sums, blocks.alphas.size(),
+                                        std::clamp<std::int64_t>(8'000'000 / cells, 1'999, 19'999), seed);
         row.incomplete_blocks = blocks.incomplete_blocks;
         row.repeated_blocks = blocks.repeated_blocks;
-        table.rows.push_back(std::move(row));
-    }
+        rows[i] = std::move(row);
+    });
+    for (auto& row : rows)
+        if (row) table.rows.push_back(std::move(*row));
     return table;
 }
 

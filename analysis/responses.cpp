@@ -150,7 +150,6 @@ void for_each_response_csv(const std::filesystem::path& path,
             fail(place, "'sigma' is '" + fields[sigma] + "'; expected a number above 0");
         if (!response.validation && (response.alpha <= 0.0 || response.alpha > 1e6))
             fail(place, "'alpha' is '" + fields[alpha] + "'; expected a number above 0");
-        response.identical = parse_flag(place, "identical", fields[identical]);
         if (given(method)) response.method = trimmed(fields[method]);
         if (given(scene)) response.scene = trimmed(fields[scene]);
         if (given(site)) response.site = trimmed(fields[site]);
@@ -168,6 +167,8 @@ void for_each_response_csv(const std::filesystem::path& path,
             response.gaze_loss =
                 parse_number<double>(place, "gaze_loss", fields[gaze_loss], "a share from 0 to 1");
         if (given(excluded)) response.excluded_reason = trimmed(fields[excluded]);
+        response.answered = given(identical) || response.excluded_reason.empty();
+        if (response.answered) response.identical = parse_flag(place, "identical", fields[identical]);
         use(response);
     }
     if (input.bad())

@@ -20,7 +20,10 @@ struct StudyDescription {
         provenance;                       // further "label, value" pairs, such as seeds and devices
     double identical_criterion = 0.8;     // P_I that a setting must reach to be accepted
     double non_inferiority_margin = 0.1;  // below the criterion, fixed before the data were seen
-    std::uint64_t analysis_seed = 1;      // of permutations and bootstraps
+    int planned_participants = 0;         // fixed before the data were seen; 0 when it was not
+    std::string exclusion_rules;          // the rules in words, as stored before the first session
+    std::string exclusion_rules_hash;
+    std::uint64_t analysis_seed = 1;  // of permutations and bootstraps
 };
 
 }  // namespace parafovea

@@ -31,10 +31,22 @@ std::size_t Tally::participant_index(const std::string& name) {
     return last_participant_ = at->second;
 }
 
+Tally::ConditionAnswers& Tally::condition_answers(const Response& response) {
+    const Condition condition{setting(response.sigma), setting(response.alpha)};
+    auto at = conditions_.find(condition);
+    if (at == conditions_.end()) {
+        at = conditions_.emplace(condition, ConditionAnswers{}).first;
+        insert_sorted(sigmas_, condition.sigma);
+        insert_sorted(alphas_, condition.alpha);
+    }
+    return at->second;
+}
+
 void Tally::add(const Response& response) {
-    if (!response.excluded_reason.empty()) {
+    if (!response.excluded_reason.empty() && (use_exclusions_ == Exclusions::applied || !response.answered)) {
         ++excluded_;
         ++exclusions_[response.excluded_reason];
+        if (!response.validation) ++condition_answers(response).records.excluded;
         return;
     }
     const std::size_t participant = participant_index(response.participant);
@@ -44,15 +56,22 @@ void Tally::add(const Response& response) {
         validation_[participant].successes += response.identical ? 1 : 0;
         return;
     }
-    const Condition condition{setting(response.sigma), setting(response.alpha)};
-    auto at = conditions_.find(condition);
-    if (at == conditions_.end()) {
-        at = conditions_.emplace(condition, ConditionAnswers{}).first;
-        insert_sorted(sigmas_, condition.sigma);
-        insert_sorted(alphas_, condition.alpha);
-    }
-    at->second.sessions[{participant, response.session}].push_back(response.identical ? 1 : 0);
+    ConditionAnswers& answers = condition_answers(response);
+    answers.sessions[{participant, response.session}].push_back(response.identical ? 1 : 0);
     ++counted_;
+
+    // Keep what the warnings and the tables of times need.
+    ConditionRecords& records = answers.records;
+    if (response.dropped_frames) records.dropped_frames.add(*response.dropped_frames);
+    if (response.gaze_loss) records.gaze_loss.add(*response.gaze_loss);
+    if (response.response_time_s)
+        records.response_times_s.push_back(static_cast<float>(*response.response_time_s));
+    if (response.foveated_first) {
+        ClusterCount& order = *response.foveated_first ? records.foveated_first : records.foveated_second;
+        ++order.n;
+        order.successes += response.identical ? 1 : 0;
+    }
+    if (!response.site.empty()) ++sites_[response.site];
 }
 
 const std::vector<double>& Tally::sigmas() const {
@@ -63,6 +82,10 @@ const std::vector<double>& Tally::alphas() const {
 }
 bool Tally::has(Condition condition) const {
     return conditions_.contains(condition);
+}
+
+const ConditionRecords& Tally::records(Condition condition) const {
+    return conditions_.at(condition).records;
 }
 
 std::int64_t Tally::sessions() const {

@@ -11,6 +11,7 @@
 #include "analysis/cochran_q.h"
 #include "analysis/proportion.h"
 #include "analysis/responses.h"
+#include "analysis/running_moments.h"
 
 namespace parafovea {
 
@@ -38,8 +39,25 @@ struct BlockTable {
         participant_sums;  // per participant with complete blocks: "identical" per column over those
 };
 
+// What is kept of a condition's trials beside the answers.
+struct ConditionRecords {
+    RunningMoments dropped_frames;  // share per trial
+    RunningMoments gaze_loss;       // share per trial
+    std::vector<float> response_times_s;
+    ClusterCount foveated_first;  // successes: answered "identical"
+    ClusterCount foveated_second;
+    std::int64_t excluded = 0;
+};
+
+enum class Exclusions {
+    applied,  // excluded trials are counted, by reason, and left out
+    ignored   // they are used as any other, except those without an answer
+};
+
 class Tally {
   public:
+    explicit Tally(Exclusions exclusions = Exclusions::applied) : use_exclusions_(exclusions) {}
+
     // Validation trials and excluded trials are counted apart and do not enter the conditions.
     void add(const Response& response);
 
@@ -53,6 +71,11 @@ class Tally {
     const std::vector<std::string>& participants() const { return participants_; }
     std::int64_t sessions() const;  // participant-sessions with a counted trial
 
+    const ConditionRecords& records(Condition condition) const;  // of a condition that has() says is there
+    const std::map<std::string, std::int64_t>& sites() const {
+        return sites_;
+    }  // counted trials per site named
+
     // One entry per participant, also those without a trial in the condition.
     std::vector<ClusterCount> by_participant(Condition condition) const;
     std::vector<ClusterCount> validation_by_participant() const;  // successes: answered "identical"
@@ -63,9 +86,12 @@ class Tally {
     using Answers = std::vector<std::uint8_t>;  // in the order of the trials
     struct ConditionAnswers {
         std::map<std::pair<std::size_t, int>, Answers> sessions;  // by participant and session
+        ConditionRecords records;
     };
+    ConditionAnswers& condition_answers(const Response& response);
     std::size_t participant_index(const std::string& name);
 
+    Exclusions use_exclusions_;
     std::vector<std::string> participants_;
     std::unordered_map<std::string, std::size_t> index_of_;
     std::size_t last_participant_ = 0;
@@ -73,7 +99,7 @@ class Tally {
     std::vector<ClusterCount> validation_;
     std::vector<double> sigmas_, alphas_;
     std::int64_t counted_ = 0, validation_trials_ = 0, excluded_ = 0;
-    std::map<std::string, std::int64_t> exclusions_;
+    std::map<std::string, std::int64_t> exclusions_, sites_;
 };
 
 }  // namespace parafovea

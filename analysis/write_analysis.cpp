@@ -3,63 +3,123 @@
 
 #include <stdexcept>
 
-#include "analysis/cochran_table.h"
 #include "analysis/condition_figure.h"
-#include "analysis/condition_table.h"
 #include "analysis/figure.h"
 #include "analysis/gnuplot.h"
+#include "analysis/parallel.h"
+#include "analysis/psychometric_figure.h"
+#include "analysis/recording_figures.h"
 #include "analysis/report.h"
-#include "analysis/tally.h"
 #include "analysis/text_file.h"
 
 namespace parafovea {
 namespace {
 
-Tally tally_of(std::span<const Response> responses) {
-    Tally tally;
-    for (const Response& response : responses) tally.add(response);
+void require_answers(const Tally& tally) {
     if (tally.counted() == 0)
-        throw std::runtime_error("there is no response to analyse: " + std::to_string(responses.size()) +
-                                 " rows, of which " + std::to_string(tally.excluded()) + " excluded and " +
-                                 std::to_string(tally.validation_trials()) + " validation trials");
+        throw std::runtime_error("there is no response to analyse: " + std::to_string(tally.excluded()) +
+                                 " trials excluded and " + std::to_string(tally.validation_trials()) +
+                                 " validation trials, none left to count");
+}
+
+StudyTally tally_of(std::span<const Response> responses) {
+    StudyTally tally;
+    for (const Response& response : responses) tally.add(response);
     return tally;
 }
 
+struct Figure {
+    std::string name;  // of its files
+    std::string script;
+    std::string description;  // for readers who cannot see it
+};
+
 }  // namespace
 
-AnalysisFiles write_analysis(std::span<const Response> responses, const StudyDescription& study,
-                             const std::filesystem::path& out) {
-    const Tally tally = tally_of(responses);
-    const std::vector<ConditionRow> conditions = condition_rows(tally);
-    const CochranTable cochran = cochran_table(tally, study.analysis_seed);
-
+AnalysisFiles write_analysis(const StudyTally& tallies, const StudyDescription& study,
+                             const StudyRecordings& recordings, const std::filesystem::path& out) {
+    const Tally& tally = tallies.with_exclusions();
+    require_answers(tally);
     make_output_folder(out);
+
+    // Compute every result.
+    StudyResults results;
+    results.conditions = condition_rows(tally);
+    results.cochran = cochran_table(tally, study.analysis_seed);
+    results.psychometric = psychometric_results(tally, study.identical_criterion, study.analysis_seed);
+    results.decision =
+        decide(tally, study.identical_criterion, study.non_inferiority_margin, 4000, study.analysis_seed);
+    results.effects = sigma_effects(tally);
+    results.sensitivity = sensitivity_rows(tally, results.conditions);
+    results.validation = validation_rows(tally);
+    results.response_times = response_time_rows(tally, results.conditions);
+    if (tally.excluded() > 0) results.without_exclusions = condition_rows(tallies.all_answers());
+    results.warnings = find_warnings(tally, study, results.conditions, results.cochran, results.validation);
+
     AnalysisFiles files;
+    files.table1 = cochran_text(results.cochran, study.title, study.data_origin);
     const auto write = [&](const std::string& name, const std::string& text) {
         write_text_file(out / name, text);
         files.written.push_back(out / name);
         return out / name;
     };
 
-    // Draw the figure and keep its numbers beside it.
-    const std::filesystem::path stem = out / (study.is_pilot ? "figure9" : "figure10");
-    write(stem.filename().string() + ".csv", condition_csv(conditions));
-    run_gnuplot(condition_figure_script(conditions, static_cast<std::int64_t>(tally.participants().size()),
-                                        study, stem));
-    for (const auto& file : figure_files(stem)) files.written.push_back(file);
-    files.figure = figure_files(stem).front();
+    // Draw the figures, all at once.
+    const std::string main_figure = study.is_pilot ? "figure9" : "figure10";
+    std::vector<Figure> figures;
+    figures.push_back(
+        {main_figure,
+         condition_figure_script(results.conditions, static_cast<std::int64_t>(tally.participants().size()),
+                                 study, out / main_figure),
+         condition_figure_description(results.conditions, study)});
+    figures.push_back({"psychometric",
+                       psychometric_figure_script(results.psychometric, study, out / "psychometric"),
+                       psychometric_figure_description(results.psychometric, study)});
+    figures.push_back({"participants",
+                       participants_figure_script(results.psychometric, study, out / "participants"),
+                       "Fitted psychometric functions of every participant, one small panel each; the "
+                       "numbers are in psychometric.csv."});
+    if (recordings.gaze)
+        figures.push_back({"gaze", gaze_figure_script(*recordings.gaze, study, out / "gaze"),
+                           "Heat map of gaze direction while pictures were shown."});
+    if (recordings.frames)
+        figures.push_back({"timing", timing_figure_script(*recordings.frames, study, out / "timing"),
+                           "Histogram of the time from one frame to the next."});
+    std::erase_if(figures, [](const Figure& figure) { return figure.script.empty(); });
+    parallel_for(figures.size(), [&](std::size_t i) { run_gnuplot(figures[i].script); });
+    for (const Figure& figure : figures) {
+        for (const auto& file : figure_files(out / figure.name)) files.written.push_back(file);
+        results.figures.push_back({figure.name, inline_svg(figure_files(out / figure.name).front(),
+                                                           figure.name + "_", figure.description)});
+    }
+    files.figure = figure_files(out / main_figure).front();
 
-    // Write the tables and the report that holds them all.
-    files.table = write("table1.csv", cochran_csv(cochran));
-    write("table1.md", cochran_markdown(cochran, study.title, study.data_origin));
-    const std::string svg =
-        inline_svg(files.figure, "figure_", condition_figure_description(conditions, study));
-    files.report = write("report.html", report_html({tally, study, conditions, cochran, svg}));
+    // Write the tables, and the report that holds them all.
+    write(main_figure + ".csv", condition_csv(results.conditions));
+    files.table = write("table1.csv", cochran_csv(results.cochran));
+    write("table1.md", cochran_markdown(results.cochran, study.title, study.data_origin));
+    write("pairwise.csv", pairwise_csv(results.effects));
+    write("psychometric.csv", psychometric_csv(results.psychometric));
+    if (!results.sensitivity.empty()) write("sensitivity.csv", sensitivity_csv(results.sensitivity));
+    if (!results.validation.empty()) write("validation.csv", validation_csv(results.validation));
+    if (!results.response_times.empty())
+        write("response_times.csv", response_time_csv(results.response_times));
+    if (!results.without_exclusions.empty())
+        write("exclusions.csv", exclusion_csv(results.conditions, results.without_exclusions));
+    if (!recordings.sessions.empty()) write("quality.csv", quality_csv(recordings));
+    files.report = write("report.html", report_html(tally, study, recordings, results));
     return files;
 }
 
+AnalysisFiles write_analysis(std::span<const Response> responses, const StudyDescription& study,
+                             const std::filesystem::path& out) {
+    return write_analysis(tally_of(responses), study, {}, out);
+}
+
 std::string table1_text(std::span<const Response> responses, const StudyDescription& study) {
-    return cochran_text(cochran_table(tally_of(responses), study.analysis_seed), study.title,
+    const StudyTally tally = tally_of(responses);
+    require_answers(tally.with_exclusions());
+    return cochran_text(cochran_table(tally.with_exclusions(), study.analysis_seed), study.title,
                         study.data_origin);
 }
 
