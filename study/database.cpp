@@ -134,6 +134,17 @@ Database::~Database() {
     sqlite3_close_v2(handle_);
 }
 
+std::unique_ptr<Database> Database::copy_in_memory() {
+    auto copy = std::make_unique<Database>(":memory:", Mode::write);
+    sqlite3_backup* backup = sqlite3_backup_init(copy->handle_, "main", handle_, "main");
+    if (backup == nullptr) fail(path_, "read", sqlite3_errcode(copy->handle_), copy->handle_);
+    sqlite3_backup_step(backup, -1);
+    const int code = sqlite3_backup_finish(backup);
+    if (code != SQLITE_OK) fail(path_, "read", code, copy->handle_);
+    copy->path_ = path_;
+    return copy;
+}
+
 void Database::execute(const char* sql) {
     const int code = sqlite3_exec(handle_, sql, nullptr, nullptr, nullptr);
     if (code != SQLITE_OK) fail(path_, "use", code, handle_);

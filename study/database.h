@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -67,6 +68,9 @@ class Database {
     Database(const Database&) = delete;
     Database& operator=(const Database&) = delete;
     ~Database();
+
+    // All of it in memory, open for writing.
+    std::unique_ptr<Database> copy_in_memory();
 
     void execute(const char* sql);
     Statement prepare(std::string_view sql) { return Statement(handle_, path_, sql); }

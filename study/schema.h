@@ -6,6 +6,6 @@ namespace parafovea {
 extern const char* const kSchemaSql;
 
 // PRAGMA user_version of a file with these tables.
-constexpr int kSchemaVersion = 1;
+constexpr int kSchemaVersion = 2;
 
 }  // namespace parafovea

@@ -23,6 +23,9 @@ CREATE TABLE session (
     device            TEXT NOT NULL,     -- what rendered
     driver            TEXT NOT NULL,
     refresh_hz        REAL NOT NULL,     -- the display's real rate, Hz
+    view_width_px     INTEGER NOT NULL,  -- one eye's picture
+    view_height_px    INTEGER NOT NULL,
+    view_fov_deg      REAL NOT NULL,     -- its horizontal field of view
     simulated_people  INTEGER NOT NULL CHECK (simulated_people IN (0, 1)),  -- 1: gaze and answers are simulated
     finished_host_ns  INTEGER            -- when the last trial was settled; NULL: not finished
 );
@@ -74,6 +77,7 @@ CREATE TABLE trial (
     valid            INTEGER NOT NULL CHECK (valid IN (0, 1)),        -- broke no rule (which: flag)
     interrupted      INTEGER NOT NULL CHECK (interrupted IN (0, 1)),  -- stopped from outside
     superseded       INTEGER NOT NULL DEFAULT 0 CHECK (superseded IN (0, 1)),  -- to be shown again by decision
+    content_hash     INTEGER,              -- FNV-1a over its values here and below; NULL: written by version 1
     UNIQUE (trial, attempt)
 );
 
@@ -115,6 +119,8 @@ CREATE TABLE frame (
     fallback         INTEGER NOT NULL,  -- 1: no fresh gaze, the last valid one or the centre was used
     gaze_sequence    INTEGER,           -- of the sample used; NULL: the centre
     gaze_age_ns      INTEGER,           -- of that sample at display
+    gaze_known       INTEGER,           -- rows of gaze that had arrived when it was prepared; NULL: written by version 1
+    events_known     INTEGER,           -- rows of controller_event that had arrived when it had been shown; NULL: likewise
     PRIMARY KEY (trial_id, frame)
 ) WITHOUT ROWID;
 

@@ -16,6 +16,7 @@
 #include <utility>
 
 #include "study/database.h"
+#include "study/migrations.h"
 #include "study/schema.h"
 #include "study/session_file_lock.h"
 #include "study/session_rows.h"
@@ -151,7 +152,9 @@ SessionLog SessionLog::create(const std::filesystem::path& path, const SessionFa
     database.execute(kSchemaSql);
     database.execute(("PRAGMA user_version = " + std::to_string(kSchemaVersion)).c_str());
     write_experiment(database, protocol);
-    write_session(database, facts, plan);
+    SessionFacts complete = facts;
+    if (complete.view.size.width == 0) complete.view = protocol.display.view;
+    write_session(database, complete, plan);
     write_plan(database, plan, protocol);
     state->anchor = write_anchor(database, anchor);
     transaction.commit();
@@ -165,12 +168,7 @@ SessionLog SessionLog::open_to_resume(const std::filesystem::path& path, ClockAn
                                       const char* vfs) {
     auto state = std::make_unique<State>(path, SessionFileLock::Mode::open, vfs);
     Database& database = state->database;
-    if (const std::int64_t version = database.user_version(); version != kSchemaVersion)
-        throw std::runtime_error(path.string() + ": expected a session file of version " +
-                                 std::to_string(kSchemaVersion) + ", found version " +
-                                 std::to_string(version) +
-                                 (version > kSchemaVersion ? "; use the program that made it"
-                                                           : "; check that it is a session file"));
+    migrate(database);
     set_up_connection(database);
     std::string file_name;
     const std::string text = read_protocol_text(database, &file_name);

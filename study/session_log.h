@@ -27,6 +27,7 @@ struct SessionFacts {
     std::string device;  // what renders, and its driver
     std::string driver;
     double refresh_hz = 0;                     // the stage's real rate
+    ViewGeometry view;                         // the stage's; the protocol's where its size is left at 0
     bool simulated_people = false;             // answers and gaze come from a simulated participant
     std::map<std::string, std::string> other;  // anything else worth keeping, by name
 };

@@ -1,27 +1,16 @@
 // Reads a session file back into plain rows.
 #include "study/session_log_reader.h"
 
+#include <algorithm>
 #include <bit>
 #include <stdexcept>
 
 #include "study/database.h"
-#include "study/schema.h"
+#include "study/migrations.h"
 #include "study/session_rows.h"
 
 namespace parafovea {
 namespace {
-
-// Opens read-only and checks the version.
-struct OpenSession {
-    explicit OpenSession(const std::filesystem::path& path) : database(path, Database::Mode::read) {
-        const std::int64_t version = database.user_version();
-        if (version != kSchemaVersion)
-            throw std::runtime_error(path.string() + ": expected a session file of version " +
-                                     std::to_string(kSchemaVersion) + ", found version " +
-                                     std::to_string(version) + "; check that it is a session file");
-    }
-    Database database;
-};
 
 std::optional<DirectionDeg> direction(const Statement& row, int column) {
     if (row.is_null(column)) return std::nullopt;
@@ -132,8 +121,8 @@ Statement rows_of_trial(Database& database, std::string_view sql, int trial_numb
 }  // namespace
 
 SessionRows read_session(const std::filesystem::path& path) {
-    OpenSession open(path);
-    Database& database = open.database;
+    const std::unique_ptr<Database> open = open_for_reading(path);
+    Database& database = *open;
     SessionRows rows;
     Statement experiment =
         database.prepare("SELECT name, protocol_text, protocol_file, protocol_hash FROM experiment");
@@ -162,15 +151,45 @@ SessionRows read_session(const std::filesystem::path& path) {
     return rows;
 }
 
+StoredTrial read_trial(const std::filesystem::path& path, int trial_number, int attempt) {
+    const SessionRows rows = read_session(path);
+    const auto row = std::find_if(rows.trials.begin(), rows.trials.end(), [&](const TrialRow& trial) {
+        return trial.planned.number == trial_number && trial.attempt == attempt;
+    });
+    if (row == rows.trials.end())
+        throw std::runtime_error(path.string() + ": expected trial " + std::to_string(trial_number) +
+                                 ", attempt " + std::to_string(attempt) +
+                                 ", found none; choose one that was shown");
+    StoredTrial stored;
+    TrialRecord& record = stored.record;
+    record.planned = row->planned;
+    record.attempt = attempt;
+    record.started = row->started;
+    record.interrupted = row->interrupted;
+    record.answer = row->answer;
+    record.invalid = row->invalid;
+    std::copy_n(row->intervals.begin(), std::min(row->intervals.size(), record.intervals.size()),
+                record.intervals.begin());
+    record.frames = read_frames(path, trial_number, attempt);
+    record.gaze = read_gaze(path, trial_number, attempt);
+    record.events = read_controller_events(path, trial_number, attempt);
+    const std::unique_ptr<Database> open = open_for_reading(path);
+    Statement hash = rows_of_trial(*open, "SELECT content_hash FROM trial WHERE trial = ? AND attempt = ?",
+                                   trial_number, attempt);
+    if (hash.step() && !hash.is_null(0)) stored.content_hash = std::bit_cast<std::uint64_t>(hash.integer(0));
+    return stored;
+}
+
 std::vector<FrameRecord> read_frames(const std::filesystem::path& path, int trial_number, int attempt) {
-    OpenSession open(path);
+    const std::unique_ptr<Database> open = open_for_reading(path);
     std::vector<FrameRecord> frames;
-    Statement row = rows_of_trial(open.database,
-                                  "SELECT frame, phase, display_host_ns, time_source, missed_vsyncs, gpu_ns, "
-                                  "image_hash, fovea_x_px, fovea_y_px, "
-                                  "fallback, gaze_sequence, gaze_age_ns FROM frame JOIN trial USING "
-                                  "(trial_id) WHERE trial = ? AND attempt = ? ORDER BY frame",
-                                  trial_number, attempt);
+    Statement row = rows_of_trial(
+        *open,
+        "SELECT frame, phase, display_host_ns, time_source, missed_vsyncs, gpu_ns, "
+        "image_hash, fovea_x_px, fovea_y_px, "
+        "fallback, gaze_sequence, gaze_age_ns, gaze_known, events_known FROM frame JOIN trial USING "
+        "(trial_id) WHERE trial = ? AND attempt = ? ORDER BY frame",
+        trial_number, attempt);
     while (row.step()) {
         FrameRecord frame;
         frame.shown.index = row.integer(0);
@@ -185,16 +204,18 @@ std::vector<FrameRecord> read_frames(const std::filesystem::path& path, int tria
         frame.fallback = row.integer(9) != 0;
         frame.gaze_sequence = row.optional_integer(10);
         if (const auto age = row.optional_integer(11)) frame.gaze_age = Duration{*age};
+        frame.gaze_known = static_cast<int>(row.integer(12));
+        frame.events_known = static_cast<int>(row.integer(13));
         frames.push_back(frame);
     }
     return frames;
 }
 
 std::vector<GazeSample> read_gaze(const std::filesystem::path& path, int trial_number, int attempt) {
-    OpenSession open(path);
+    const std::unique_ptr<Database> open = open_for_reading(path);
     std::vector<GazeSample> samples;
     Statement row =
-        rows_of_trial(open.database,
+        rows_of_trial(*open,
                       "SELECT sequence, device_ns, host_ns, host_error_ns, arrival_host_ns, status, eyes, "
                       "azimuth_deg, elevation_deg, "
                       "left_azimuth_deg, left_elevation_deg, left_pupil_mm, right_azimuth_deg, "
@@ -219,10 +240,10 @@ std::vector<GazeSample> read_gaze(const std::filesystem::path& path, int trial_n
 
 std::vector<ControllerEvent> read_controller_events(const std::filesystem::path& path, int trial_number,
                                                     int attempt) {
-    OpenSession open(path);
+    const std::unique_ptr<Database> open = open_for_reading(path);
     std::vector<ControllerEvent> events;
     Statement row =
-        rows_of_trial(open.database,
+        rows_of_trial(*open,
                       "SELECT host_ns, host_error_ns, kind, button FROM controller_event JOIN trial USING "
                       "(trial_id) WHERE trial = ? AND attempt = ? ORDER BY n",
                       trial_number, attempt);

@@ -57,7 +57,14 @@ struct SessionRows {
 // where the file is not a session or is damaged.
 SessionRows read_session(const std::filesystem::path& path);
 
-// Of one showing of one trial, in order.
+// One showing of one trial, complete. Throws std::runtime_error where there is none.
+struct StoredTrial {
+    TrialRecord record;
+    std::optional<std::uint64_t> content_hash;  // as it was when written; absent in files of version 1
+};
+StoredTrial read_trial(const std::filesystem::path& path, int trial_number, int attempt = 0);
+
+// Its parts, in order.
 std::vector<FrameRecord> read_frames(const std::filesystem::path& path, int trial_number, int attempt = 0);
 std::vector<GazeSample> read_gaze(const std::filesystem::path& path, int trial_number, int attempt = 0);
 std::vector<ControllerEvent> read_controller_events(const std::filesystem::path& path, int trial_number,

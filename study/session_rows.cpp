@@ -43,7 +43,8 @@ void write_intervals(Database& database, const TrialRecord& record, std::int64_t
 }
 
 void write_frames(Database& database, const TrialRecord& record, std::int64_t trial_id) {
-    Statement insert = database.prepare("INSERT INTO frame VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+    Statement insert =
+        database.prepare("INSERT INTO frame VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
     for (const FrameRecord& frame : record.frames) {
         insert.bind_all(trial_id, frame.shown.index, static_cast<int>(frame.phase),
                         frame.shown.display_time.ns, static_cast<int>(frame.shown.time_source),
@@ -51,7 +52,8 @@ void write_frames(Database& database, const TrialRecord& record, std::int64_t tr
         insert.bind(frame.shown.gpu_time ? std::optional(frame.shown.gpu_time->ns) : std::nullopt);
         insert.bind(frame.shown.image_hash ? std::optional(bits(*frame.shown.image_hash)) : std::nullopt);
         insert.bind_all(frame.fovea.x, frame.fovea.y, frame.fallback, frame.gaze_sequence);
-        insert.bind(frame.gaze_age ? std::optional(frame.gaze_age->ns) : std::nullopt).run();
+        insert.bind(frame.gaze_age ? std::optional(frame.gaze_age->ns) : std::nullopt);
+        insert.bind_all(frame.gaze_known, frame.events_known).run();
     }
 }
 
@@ -92,10 +94,17 @@ void write_experiment(Database& database, const Protocol& protocol) {
 }
 
 void write_session(Database& database, const SessionFacts& facts, const TrialPlan& plan) {
-    database.prepare("INSERT INTO session VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, NULL)")
+    database
+        .prepare(
+            "INSERT INTO session (uuid, participant, participant_index, seed, program_version, display, "
+            "gaze_source, "
+            "controller, device, driver, refresh_hz, view_width_px, view_height_px, view_fov_deg, "
+            "simulated_people) "
+            "VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)")
         .bind_all(facts.uuid, facts.participant, plan.participant_index, bits(plan.seed),
                   facts.program_version, facts.display, facts.gaze_source, facts.controller, facts.device,
-                  facts.driver, facts.refresh_hz, facts.simulated_people)
+                  facts.driver, facts.refresh_hz, facts.view.size.width, facts.view.size.height,
+                  facts.view.horizontal_fov_deg, facts.simulated_people)
         .run();
     Statement insert = database.prepare("INSERT INTO session_fact VALUES (?, ?)");
     for (const auto& [name, value] : facts.other) insert.bind_all(name, value).run();
@@ -128,9 +137,12 @@ std::int64_t write_anchor(Database& database, ClockAnchor anchor) {
 }
 
 void write_trial(Database& database, const TrialRecord& record, std::int64_t anchor) {
-    database.prepare("INSERT INTO trial VALUES (NULL, ?, ?, ?, ?, ?, ?, 0)")
+    database
+        .prepare(
+            "INSERT INTO trial (trial, attempt, anchor, started_host_ns, valid, interrupted, content_hash) "
+            "VALUES (?, ?, ?, ?, ?, ?, ?)")
         .bind_all(record.planned.number, record.attempt, anchor, record.started.ns, record.invalid.empty(),
-                  record.interrupted)
+                  record.interrupted, bits(content_hash(record)))
         .run();
     const std::int64_t trial_id = database.last_row_id();
     write_intervals(database, record, trial_id);
@@ -207,7 +219,7 @@ SessionFacts read_facts(Database& database) {
     Statement row = database.prepare(
         "SELECT uuid, participant, program_version, display, gaze_source, controller, device, driver, "
         "refresh_hz, "
-        "simulated_people FROM session");
+        "simulated_people, view_width_px, view_height_px, view_fov_deg FROM session");
     if (row.step()) {
         std::string* const fields[] = {&facts.uuid,    &facts.participant, &facts.program_version,
                                        &facts.display, &facts.gaze_source, &facts.controller,
@@ -215,6 +227,7 @@ SessionFacts read_facts(Database& database) {
         for (int i = 0; i < 8; ++i) *fields[i] = row.text(i);
         facts.refresh_hz = row.real(8);
         facts.simulated_people = row.integer(9) != 0;
+        facts.view = {{static_cast<int>(row.integer(10)), static_cast<int>(row.integer(11))}, row.real(12)};
     }
     Statement other = database.prepare("SELECT name, value FROM session_fact");
     while (other.step()) facts.other[other.text(0)] = other.text(1);

@@ -20,6 +20,9 @@ struct Picture {
     MethodSetting method;  // stimulus only: how it is rendered
     PointPx fovea;         // stimulus: where the foveation is centred; target: where the dot to look at is
     std::string text;      // text and question only
+    // The photodiode's patch in a corner: white (true) during the two intervals, else black. Absent: no
+    // patch.
+    std::optional<bool> patch;
 };
 
 enum class TimeSource { predicted, compositor, gpu, simulated };

@@ -24,6 +24,8 @@ struct FrameRecord {
     std::optional<std::int64_t>
         gaze_sequence;                 // the sample the fovea came from; absent with foveation at the centre
     std::optional<Duration> gaze_age;  // that sample's age at display
+    int gaze_known = 0;    // gaze samples of the trial that had arrived when the frame was prepared
+    int events_known = 0;  // controller events of the trial that had arrived when it had been shown
 };
 
 // One phase of whole frames. Durations are rounded to frames of the real rate once, before the trial.
@@ -60,5 +62,9 @@ struct TrialRecord {
 };
 
 std::string_view phase_name(Phase phase);
+
+// FNV-1a (64 bits) over every value of the record but those of the plan. It is stored with the record, so
+// that a change of any stored value is noticed.
+std::uint64_t content_hash(const TrialRecord& record);
 
 }  // namespace parafovea

@@ -75,9 +75,12 @@ class RunningTrial {
         fovea_.take(std::span(record_.gaze).subspan(known));
         FoveationPoint::Choice choice = fovea_.choose();
         picture.fovea = choice.point;
+        if (protocol_.display.photodiode_patch)
+            picture.patch = phase == Phase::first_interval || phase == Phase::second_interval;
 
         FrameRecord frame;
         frame.phase = phase;
+        frame.gaze_known = static_cast<int>(record_.gaze.size());
         frame.shown = stage_.show(picture);
         frame.fovea = choice.point;
         if (picture.kind == PictureKind::stimulus) {
@@ -86,8 +89,9 @@ class RunningTrial {
             frame.fallback = fovea_.is_fallback(choice, frame.shown.display_time);
         }
         count(frame);
-        record_.frames.push_back(frame);
         controller_.drain(record_.events);
+        frame.events_known = static_cast<int>(record_.events.size());
+        record_.frames.push_back(frame);
         return record_.frames.back();
     }
 

@@ -37,6 +37,14 @@ bool any_frame_older(const TrialRecord& record, double age_ms) {
     return false;
 }
 
+// A runtime's display times are its own word; one that does not move on means that none of them can be
+// trusted.
+bool display_times_rise(const TrialRecord& record) {
+    for (std::size_t i = 1; i < record.frames.size(); ++i)
+        if (record.frames[i].shown.display_time <= record.frames[i - 1].shown.display_time) return false;
+    return true;
+}
+
 }  // namespace
 
 std::vector<std::string> broken_rules(const TrialRecord& record, const Protocol& protocol) {
@@ -53,6 +61,7 @@ std::vector<std::string> broken_rules(const TrialRecord& record, const Protocol&
     const int missed =
         of(record, Phase::first_interval).missed_vsyncs + of(record, Phase::second_interval).missed_vsyncs;
     if (rules.missed_frames && missed > *rules.missed_frames) broken.push_back("missed_frames");
+    if (!display_times_rise(record)) broken.push_back("display_time");
     if (rules.unanswered && !record.answer) broken.push_back("unanswered");
     return broken;
 }

@@ -10,8 +10,8 @@
 namespace parafovea {
 
 // The names of the rules that the trial broke, each at most once, in this order: "gaze_off_center",
-// "gaze_lost", "gaze_age", "missed_frames", "unanswered". Gaze is judged by the samples seen during the two
-// intervals.
+// "gaze_lost", "gaze_age", "missed_frames", "display_time" (times that do not rise; always applied),
+// "unanswered". Gaze is judged by the samples seen during the two intervals.
 std::vector<std::string> broken_rules(const TrialRecord& record, const Protocol& protocol);
 
 }  // namespace parafovea

@@ -12,52 +12,17 @@
 #include "study/session_log.h"
 #include "study/session_log_reader.h"
 #include "study/session_runner.h"
-#include "tests/study/fakes.h"
+#include "tests/study/lab.h"
 
 namespace parafovea {
 namespace {
 
-using test::FakeGaze;
-using test::FakeParticipant;
-using test::FakeStage;
+using test::facts;
+using test::ProgramRun;
+using test::resume;
+using test::start;
 using test::TemporaryFolder;
 using testing::HasSubstr;
-
-SessionFacts facts() {
-    SessionFacts facts;
-    facts.uuid = "u";
-    facts.participant = "p07";
-    facts.program_version = "0.1";
-    facts.refresh_hz = 100;
-    facts.simulated_people = true;
-    facts.other = {{"operator's name", "it's \"O'Neill\"; DROP TABLE plan"}};
-    return facts;
-}
-
-// One run of the program over a session file.
-struct ProgramRun {
-    ProgramRun() : stage(clock, 100), gaze(clock), participant(clock, stage) {
-        stage.keep_last = 10;
-        gaze.look(0, 60, DirectionDeg{0.5, 0.25});
-    }
-    SessionEnd go(SessionLog& log, const SessionHooks& hooks = {}) {
-        return run_session(log, stage, gaze, participant, clock, hooks);
-    }
-
-    SimulatedClock clock;
-    FakeStage stage;
-    FakeGaze gaze;
-    FakeParticipant participant;
-};
-
-SessionLog start(const std::filesystem::path& path, const Protocol& protocol = test::small_protocol()) {
-    return SessionLog::create(path, facts(), protocol, make_plan(protocol, 2, 42), {{}, 1'000'000'000'000});
-}
-
-SessionLog resume(const std::filesystem::path& path, double after_h = 0.1) {
-    return SessionLog::open_to_resume(path,
-                                      {{}, 1'000'000'000'000 + static_cast<std::int64_t>(after_h * 3.6e12)});
-}
 
 std::vector<std::string> what_happened(const SessionRows& rows) {
     std::vector<std::string> lines;
@@ -500,7 +465,8 @@ TEST(KillNine,
             ASSERT_EQ(::pipe(ends), 0);
             const pid_t child = run_in_child(path, exists, ends[1]);
             ::close(ends[1]);
-            std::this_thread::sleep_for(std::chrono::microseconds(200 + random.below(25000)));
+            std::this_thread::sleep_for(
+                std::chrono::microseconds(200 + random.below(25000) + 200 * static_cast<unsigned>(tries)));
             ::kill(child, SIGKILL);
             int status = 0;
             ::waitpid(child, &status, 0);
