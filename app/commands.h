@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,20 @@
 #include "renderer/kernel_setting.h"
 
 namespace parafovea {
+
+class RunCommand {
+  public:
+    explicit RunCommand(CLI::App& program);
+
+  private:
+    void run() const;
+
+    std::string protocol_, participant_, data_ = "sessions", display_ = "headless", gaze_ = "simulated",
+                                         controller_ = "simulated";
+    std::optional<std::uint64_t> seed_;
+    bool resume_ = false;
+    bool quiet_ = false;
+};
 
 class PlanCommand {
   public:

@@ -10,6 +10,7 @@ int main(int argc, char** argv) {
     program.set_version_flag("--version", PARAFOVEA_VERSION);
     program.require_subcommand(1);
 
+    const parafovea::RunCommand run(program);
     const parafovea::SimulateCommand simulate(program);
     const parafovea::AnalyzeCommand analyze(program);
     const parafovea::PlanCommand plan(program);

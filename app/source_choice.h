@@ -25,8 +25,8 @@ struct ChosenSource {
     Source* source = nullptr;
 };
 
-// "simulated", or "replay:FILE" with a recording that devices/gaze_recording.h reads. Throws std::runtime_error
-// with one line for another name and where the source cannot be opened.
+// "simulated", or "replay:FILE" with a recording that devices/gaze_recording.h reads. Throws
+// std::runtime_error with one line for another name and where the source cannot be opened.
 ChosenSource<GazeSource> choose_gaze(const std::string& name, const SourceParts& parts);
 
 // "simulated". Throws like choose_gaze.
