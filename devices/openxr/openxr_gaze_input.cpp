@@ -2,6 +2,7 @@
 #include "devices/openxr/openxr_gaze_input.h"
 
 #include <cstring>
+#include <utility>
 
 namespace parafovea {
 
@@ -46,6 +47,10 @@ void OpenXrGazeInput::attach(XrSession session) {
     space.action = action_;
     space.poseInActionSpace.orientation.w = 1;
     check_openxr(xrCreateActionSpace(session, &space, &gaze_), "attaching the eye tracker");
+}
+
+void OpenXrGazeInput::detach() {
+    if (gaze_ != XR_NULL_HANDLE) xrDestroySpace(std::exchange(gaze_, XR_NULL_HANDLE));
 }
 
 GazeReading OpenXrGazeInput::read(XrSession session, XrSpace head, DeviceTime asked) const {

@@ -33,8 +33,8 @@ class OpenXrGazeInput {
 
     void attach(XrSession session);
 
-    // Forgets the session, whose spaces go with it.
-    void detach() { gaze_ = XR_NULL_HANDLE; }
+    // Before the session is destroyed.
+    void detach();
 
     // Throws if the runtime fails in another way than losing the session.
     GazeReading read(XrSession session, XrSpace head, DeviceTime asked) const;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstring>
 #include <stdexcept>
+#include <utility>
 
 namespace parafovea {
 
@@ -59,14 +60,16 @@ void OpenXrSession::create() {
     state_ = SessionState::starting;
 }
 
-// Destroying a session destroys its swapchains and spaces.
 void OpenXrSession::destroy() {
     const std::lock_guard lock(handles_);
     gaze_input_.detach();
+    for (const Swapchain& swapchain : swapchains_)
+        if (swapchain.handle != XR_NULL_HANDLE) xrDestroySwapchain(swapchain.handle);
     swapchains_.clear();
+    for (XrSpace* const space : {&head_, &room_})
+        if (*space != XR_NULL_HANDLE) xrDestroySpace(std::exchange(*space, XR_NULL_HANDLE));
     running_ = false;
-    if (session_ != XR_NULL_HANDLE) xrDestroySession(session_);
-    session_ = XR_NULL_HANDLE;
+    if (session_ != XR_NULL_HANDLE) xrDestroySession(std::exchange(session_, XR_NULL_HANDLE));
 }
 
 bool OpenXrSession::restart() {
@@ -115,7 +118,7 @@ void OpenXrSession::create_swapchains() {
         info.sampleCount = info.faceCount = info.arraySize = info.mipCount = 1;
         info.width = static_cast<std::uint32_t>(size.width);
         info.height = static_cast<std::uint32_t>(size.height);
-        Swapchain swapchain;
+        Swapchain& swapchain = swapchains_.emplace_back();
         swapchain.size = size;
         check_openxr(xrCreateSwapchain(session_, &info, &swapchain.handle),
                      "making pictures for the headset");
@@ -128,7 +131,6 @@ void OpenXrSession::create_swapchains() {
                                                 reinterpret_cast<XrSwapchainImageBaseHeader*>(images.data())),
                      "making pictures for the headset");
         for (const XrSwapchainImageVulkanKHR& image : images) swapchain.images.push_back(image.image);
-        swapchains_.push_back(std::move(swapchain));
     }
 }
 

@@ -3,6 +3,8 @@
 
 #include <array>
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
 
 #include "tests/devices/openxr_headset.h"
 
@@ -10,7 +12,6 @@ namespace parafovea {
 namespace {
 
 using testing::ElementsAre;
-using testing::HasSubstr;
 
 TEST(OpenXrSession, WalksFromStartToFocusAndOutAgain) {
     Headset headset("pacing=simulated");
@@ -186,23 +187,29 @@ TEST(OpenXrSession, TheLensesHideOnlyTheCorners) {
     EXPECT_NEAR(area / (width * width * 1440 / 1280), 0.08, 1e-5);
 }
 
+// In a process of its own: the loader remembers what a runtime offers.
+[[noreturn]] void open_and_exit(const char* settings) {
+    setenv("XR_RUNTIME_JSON", SIMULATED_HEADSET_JSON, 1);
+    setenv("PARAFOVEA_HEADSET", settings, 1);
+    unsetenv("XR_ENABLE_API_LAYERS");
+    try {
+        const OpenXrInstance instance;
+    } catch (const std::runtime_error& error) {
+        std::fprintf(stderr, "%s\n", error.what());
+        std::_Exit(1);
+    }
+    std::_Exit(0);
+}
+
 TEST(OpenXrInstance, SaysWhatIsMissingInOneLine) {
-    const auto message_with = [](const std::string& settings) -> std::string {
-        setenv("XR_RUNTIME_JSON", SIMULATED_HEADSET_JSON, 1);
-        setenv("PARAFOVEA_HEADSET", settings.c_str(), 1);
-        unsetenv("XR_ENABLE_API_LAYERS");
-        try {
-            const OpenXrInstance instance;
-        } catch (const std::runtime_error& error) {
-            return error.what();
-        }
-        return "no error";
-    };
-    EXPECT_THAT(message_with("headset=unplugged"), HasSubstr("no headset is connected; plug it in"));
-    EXPECT_THAT(message_with("without=XR_KHR_convert_timespec_time"),
-                HasSubstr("lacks XR_KHR_convert_timespec_time"));
-    EXPECT_THAT(message_with("without=XR_KHR_vulkan_enable2"), HasSubstr("lacks XR_KHR_vulkan_enable2"));
-    EXPECT_EQ(message_with("gaze=none"), "no error");
+    GTEST_FLAG_SET(death_test_style, "threadsafe");
+    EXPECT_EXIT(open_and_exit("headset=unplugged"), testing::ExitedWithCode(1),
+                "no headset is connected; plug it in");
+    EXPECT_EXIT(open_and_exit("without=XR_KHR_convert_timespec_time"), testing::ExitedWithCode(1),
+                "lacks XR_KHR_convert_timespec_time");
+    EXPECT_EXIT(open_and_exit("without=XR_KHR_vulkan_enable2"), testing::ExitedWithCode(1),
+                "lacks XR_KHR_vulkan_enable2");
+    EXPECT_EXIT(open_and_exit("gaze=none"), testing::ExitedWithCode(0), "");
 }
 
 }  // namespace
