@@ -152,7 +152,7 @@ TEST(Replay, a_change_of_the_trial_rows_the_plan_or_the_protocol_is_found) {
           "UPDATE frame SET fovea_x_px = fovea_x_px + 1e-9 WHERE trial_id = 1 AND phase = 1",
           "UPDATE interval SET presented_frames = 19 WHERE trial_id = 2 AND phase = 3",
           "DELETE FROM gaze WHERE trial_id = 4 AND n = 9", "DELETE FROM controller_event WHERE trial_id = 4",
-          "UPDATE plan SET scene = 'two' WHERE trial = 12", "UPDATE session SET seed = seed + 1",
+          "UPDATE plan SET scene = 'three' WHERE trial = 12", "UPDATE session SET seed = seed + 1",
           "UPDATE experiment SET protocol_text = protocol_text || ' '", "DELETE FROM flag WHERE flag = 1"}) {
         const auto path = folder / "changed.sqlite";
         std::filesystem::copy_file(folder / "s.sqlite", path,

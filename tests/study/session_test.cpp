@@ -449,10 +449,13 @@ pid_t run_in_child(const std::filesystem::path& path, bool again, int pipe_end) 
 TEST(KillNine,
      at_any_moment_loses_no_acknowledged_answer_and_the_session_goes_on_as_if_nothing_had_happened) {
     TemporaryFolder folder;
+    // How long a session takes on this machine, so that kills fall on all of it.
+    const auto began = std::chrono::steady_clock::now();
     {
         SessionLog log = start(folder / "whole.sqlite");
         ProgramRun().go(log);
     }
+    const auto session_time = std::chrono::steady_clock::now() - began;
     const SessionRows whole = read_session(folder / "whole.sqlite");
     Random random(2026);
     int killed = 0;
@@ -465,8 +468,7 @@ TEST(KillNine,
             ASSERT_EQ(::pipe(ends), 0);
             const pid_t child = run_in_child(path, exists, ends[1]);
             ::close(ends[1]);
-            std::this_thread::sleep_for(
-                std::chrono::microseconds(200 + random.below(25000) + 200 * static_cast<unsigned>(tries)));
+            std::this_thread::sleep_for(random.uniform(0, 0.9) * session_time);
             ::kill(child, SIGKILL);
             int status = 0;
             ::waitpid(child, &status, 0);
