@@ -109,8 +109,11 @@ void KfrMethod::configure(const RenderMethod& method) {
 void KfrMethod::configure(const KfrSetting& setting) {
     if (setting == setting_) return;
     if (setting.kernel != setting_.kernel) map_stale_ = true;
+    // Pipelines do not depend on these.
     KfrSetting same_pipelines = setting;
-    same_pipelines.kernel = setting_.kernel;
+    same_pipelines.kernel.sigma = setting_.kernel.sigma;
+    same_pipelines.kernel.alpha = setting_.kernel.alpha;
+    same_pipelines.kernel.betas = setting_.kernel.betas;
     if (same_pipelines != setting_) pipelines_stale_ = true;
     setting_ = setting;
 }
@@ -170,6 +173,9 @@ void KfrMethod::make_targets() {
 }
 
 void KfrMethod::make_pipelines() {
+    // See map_block.glsl.
+    const shared::KernelMap map = make_kernel_map(screen_, gaze_, setting_.kernel);
+    const std::vector<ShaderConstant> map_constants{{0, map.kernel}, {1, map.as_printed}};
     if (setting_.culling) {
         GraphicsPipelineDescription mask;
         mask.vertex = shader_code::fullscreen_vert;
@@ -179,12 +185,14 @@ void KfrMethod::make_pipelines() {
         mask.depth_test = true;
         mask.depth_write = true;
         mask.depth_compare = VK_COMPARE_OP_ALWAYS;
-        mask.constants = {{0, setting_.internal_filter ? 1U : 0U}};
+        mask.constants = map_constants;
+        mask.constants.push_back({2, setting_.internal_filter ? 1U : 0U});
         mask_pipeline_ = make_graphics_pipeline(gpu_, mask);
     }
     GraphicsPipelineDescription shading = masked_pass(shading_code_for(source_.thing), shading_layout_.get(),
                                                       formats_.reduced, setting_.culling);
     shading.constants = source_.constants;
+    shading.constants.insert(shading.constants.end(), map_constants.begin(), map_constants.end());
     shading_pipeline_ = make_graphics_pipeline(gpu_, shading);
     if (setting_.internal_filter) {
         filter_pipeline_ =
@@ -194,12 +202,13 @@ void KfrMethod::make_pipelines() {
     const std::span<const std::uint32_t> resample =
         formats_.exact_bilinear ? std::span<const std::uint32_t>(shader_code::pass_2_exact)
                                 : shader_code::pass_2;
-    resample_pipeline_ = make_fullscreen_pipeline(gpu_, resample, resample_layout_.get(),
-                                                  {setting_.post_filter ? kLinearFormat : formats_.target});
+    resample_pipeline_ =
+        make_fullscreen_pipeline(gpu_, resample, resample_layout_.get(),
+                                 {setting_.post_filter ? kLinearFormat : formats_.target}, map_constants);
     if (setting_.post_filter) {
         post_pipeline_ =
             make_fullscreen_pipeline(gpu_, shader_code::post_filter, post_layout_.get(), {formats_.target},
-                                     {{0, std::bit_cast<std::uint32_t>(setting_.post_filter_cap)}});
+                                     {{2, std::bit_cast<std::uint32_t>(setting_.post_filter_cap)}});
     }
 }
 

@@ -7,7 +7,7 @@
 
 layout(set = 0, binding = 1) uniform sampler2D screen;
 
-layout(constant_id = 0) const int kLargestEta = 11;
+layout(constant_id = 2) const int kLargestEta = 11;
 
 layout(location = 0) out vec4 color;
 

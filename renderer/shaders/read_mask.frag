@@ -5,7 +5,7 @@
 #define METHOD_SET 0
 #include "map_block.glsl"
 
-layout(constant_id = 0) const uint kInternalFilter = 0u;
+layout(constant_id = 2) const uint kInternalFilter = 0u;
 
 // Rounding may differ between this shader and the one that reads: a footprint counts as a little larger.
 const float kSlack = 1.0 / 128.0;

