@@ -55,6 +55,10 @@ class Builder {
         for (float side : {-1.0f, 1.0f}) {
             add_panel(walls, {side * kAisle, 0, -side * kHalfLength}, {0, 0, side * length}, {0, kTop, 0}, 35,
                       12);
+            // The wall's outside: light must not slip in along its foot.
+            const float shell = side * kAisle + side * 0.35f;
+            add_box(pilasters, {shell - 0.3f, -0.4f, -kHalfLength - 0.5f},
+                    {shell + 0.3f, kTop + 0.3f, kHalfLength + 0.5f});
             for (int i = 0; i <= kBays; ++i) {
                 const float z = -kHalfLength + kBay_m * static_cast<float>(i);
                 add_box(pilasters, {side * kAisle - 0.2f, 0, z - 0.25f},
@@ -258,7 +262,7 @@ Scene make_atrium_scene() {
     Builder(scene).build();
     scene.sun = Sun{glm::normalize(glm::vec3(0.36f, 0.86f, 0.22f)), glm::vec3(9.0f, 8.0f, 6.6f), true};
     scene.sky = Sky{{0.55f, 0.95f, 1.9f}, {1.6f, 1.75f, 1.9f}, {0.30f, 0.24f, 0.18f}};
-    scene.exposure = 0.30f;
+    scene.exposure = 0.62f;
     scene.cameras.push_back(camera_looking({-1.1f, 1.75f, 12.2f}, {0.5f, 2.75f, -6}, 1.05f));
     scene.cameras.front().name = "nave";
     scene.cameras.push_back(camera_looking({-6.2f, 1.7f, 9.5f}, {3.0f, 2.3f, -4}, 1.05f));

@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "renderer/gltf_accessor.h"
+#include "renderer/gltf_defaults.h"
 #include "renderer/gltf_material.h"
 #include "renderer/scene_tangents.h"
 
@@ -359,34 +360,6 @@ class SceneBuilder {
     bool has_sun_ = false;
 };
 
-// Looks at the whole scene from a little above.
-SceneCamera framing_camera(const Bounds& bounds) {
-    constexpr float kFov = 0.8f;
-    const float radius = std::max(bounds.radius(), 1e-4f);
-    const glm::vec3 from =
-        bounds.centre() + glm::normalize(glm::vec3(0.55f, 0.35f, 1)) * radius / std::sin(kFov / 2);
-    SceneCamera camera = camera_looking(from, bounds.centre(), kFov);
-    camera.name = "whole";
-    camera.near_m = 0.01f * radius;
-    return camera;
-}
-
-void light_by_default(Scene& scene, bool has_sun) {
-    if (has_sun) {
-        // Files in physical units give the sun tens of thousands of lux.
-        const glm::vec3 e = scene.sun->irradiance;
-        const float brightest = std::max(e.x, std::max(e.y, e.z));
-        if (brightest > 10) scene.exposure = 3 / brightest;
-        const float scale = std::max(brightest / 3, 0.01f);
-        scene.sky = Sky{scene.sky.zenith * scale, scene.sky.horizon * scale, scene.sky.ground * scale};
-    } else if (scene.lights.empty()) {
-        scene.sun = Sun{glm::normalize(glm::vec3(0.45f, 0.75f, 0.5f)), glm::vec3(3.2f, 3.0f, 2.7f), true};
-    } else {
-        // A scene with lamps of its own is lit by them; the sky only fills in.
-        scene.sky = Sky{glm::vec3(0.25f), glm::vec3(0.3f), glm::vec3(0.15f)};
-    }
-}
-
 }  // namespace
 
 Scene load_gltf(const std::string& path) {
@@ -396,8 +369,8 @@ Scene load_gltf(const std::string& path) {
         scene.name = std::filesystem::path(path).stem().string();
         SceneBuilder builder(parsed, scene);
         builder.build();
+        if (scene.cameras.empty()) scene.cameras.push_back(default_camera(scene));
         light_by_default(scene, builder.has_sun());
-        if (scene.cameras.empty()) scene.cameras.push_back(framing_camera(world_bounds(scene)));
         if (scene.lights.size() > 64) {
             scene.warnings.push_back("only the first 64 of " + std::to_string(scene.lights.size()) +
                                      " lamps are lit");

@@ -3,9 +3,12 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <cstring>
+#include <glm/gtc/packing.hpp>
 #include <optional>
 
+#include "renderer/scene_irradiance.h"
 #include "renderer/scene_lighting.h"
 #include "renderer/scene_resources.h"
 #include "renderer/scene_shadow.h"
@@ -32,6 +35,27 @@ bool may_be_seen(const Bounds& box, const glm::mat4& clip_from_world) {
     return left < 8 && right < 8 && above < 8 && below < 8 && behind < 8;
 }
 
+// The exposure that shows a grey surface near the eye as grey, as a camera left to itself would choose.
+float exposure_at(const IrradianceVolume& volume, glm::vec3 eye) {
+    constexpr float kReach_m = 3, kKey = 0.45f;
+    const glm::vec3 cell = (volume.box.high - volume.box.low) / glm::vec3(volume.size);
+    float sum = 0, weights = 0;
+    for (int z = 0; z < volume.size.z; ++z) {
+        for (int y = 0; y < volume.size.y; ++y) {
+            for (int x = 0; x < volume.size.x; ++x) {
+                const glm::vec3 offset = volume.box.low + (glm::vec3(x, y, z) + 0.5f) * cell - eye;
+                const float weight = 1 / (1 + glm::dot(offset, offset) / (kReach_m * kReach_m));
+                const float light = 0.2126f * volume.at(0, x, y, z).x + 0.7152f * volume.at(1, x, y, z).x +
+                                    0.0722f * volume.at(2, x, y, z).x;
+                // The logarithm keeps a window from counting for the whole room.
+                sum += weight * std::log(std::max(light, 1e-4f));
+                weights += weight;
+            }
+        }
+    }
+    return std::clamp(kKey / std::exp(sum / weights), 0.05f, 60.0f);
+}
+
 }  // namespace
 
 struct ScenePasses::Parts {
@@ -42,6 +66,7 @@ struct ScenePasses::Parts {
     bool build_blended = false;
     bool build_shadow = false;
     bool build_emission = false;
+    bool build_irradiance = false;
     std::uint32_t light_count = 0;
     std::optional<SceneResources> resources;
     std::optional<SunShadow> shadow;
@@ -54,7 +79,8 @@ struct ScenePasses::Parts {
     GpuBuffer lighting_buffer;
     GpuImage gbuffer, depth, blended, blended_depth;
     GpuImage unused_words, unused_depth;  // stand at the bindings of what was left out
-    OwnedSampler nearest, shadow_sampler;
+    GpuImage irradiance;
+    OwnedSampler nearest, shadow_sampler, linear;
     DescriptorSet set;
     std::vector<std::size_t> in_view;
     std::vector<FeatureNote> built;
@@ -68,6 +94,7 @@ struct ScenePasses::Parts {
             left_out.push_back({name, why_not});
     }
     void build_meshes(const Scene& scene);
+    void build_irradiance_volume(const Scene& scene);
     void describe(const Scene& scene);
     void make_targets();
     void find_visible(glm::vec3 eye);
@@ -93,6 +120,10 @@ void ScenePasses::Parts::build_meshes(const Scene& scene) {
     shadow_sampler = make_sampler(gpu, {.address_u = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
                                         .address_v = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
                                         .compare = true});
+    linear = make_sampler(gpu, {.mipmap = VK_SAMPLER_MIPMAP_MODE_NEAREST,
+                                .address_u = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
+                                .address_v = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE});
+    build_irradiance_volume(scene);
     // One texel each, in the state in which they are bound.
     unused_words = GpuImage(gpu, {.format = VK_FORMAT_R32G32B32A32_UINT,
                                   .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT});
@@ -111,9 +142,44 @@ void ScenePasses::Parts::build_meshes(const Scene& scene) {
                               {shared::kBindDepth, texture},
                               {shared::kBindShadow, texture},
                               {shared::kBindBlended, texture},
-                              {shared::kBindBlendedDepth, texture}});
+                              {shared::kBindBlendedDepth, texture},
+                              {shared::kBindIrradiance, texture}});
+    set.set_sampled_image(shared::kBindIrradiance, irradiance.view(), linear.get());
     set.set_sampled_image(shared::kBindShadow, shadow ? shadow->map().view() : unused_depth.view(),
                           shadow_sampler.get());
+}
+
+void ScenePasses::Parts::build_irradiance_volume(const Scene& scene) {
+    // Inside a scene, light differs from place to place; an object seen from outside stands under the open
+    // sky.
+    const Bounds box = world_bounds(scene);
+    const glm::vec3 eye{scene.cameras.front().world_from_camera[3]};
+    const bool inside = glm::all(glm::lessThan(box.low, eye)) && glm::all(glm::lessThan(eye, box.high));
+    build_irradiance = inside;
+    IrradianceVolume volume;
+    if (build_irradiance) {
+        volume = bake_irradiance(scene);
+        const glm::vec3 scale = 1.0f / (volume.box.high - volume.box.low);
+        const glm::vec3 cell = 1.0f / (scale * glm::vec3(volume.size));
+        lighting.volume_origin = {volume.box.low.x, volume.box.low.y, volume.box.low.z,
+                                  0.35f * std::min(cell.x, std::min(cell.y, cell.z))};
+        lighting.volume_scale = {scale.x, scale.y, scale.z, static_cast<float>(volume.size.z)};
+    } else {
+        volume.size = glm::ivec3(1);
+        volume.texels.assign(3, glm::vec4(0));
+    }
+    if (!(scene.exposure > 0)) lighting.sun_direction.w = build_irradiance ? exposure_at(volume, eye) : 1;
+    std::vector<std::uint64_t> halves;
+    halves.reserve(volume.texels.size());
+    for (const glm::vec4& texel : volume.texels) halves.push_back(glm::packHalf4x16(texel));
+    const auto layers = static_cast<std::uint32_t>(3 * volume.size.z);
+    irradiance = GpuImage(gpu, {.format = VK_FORMAT_R16G16B16A16_SFLOAT,
+                                .width = static_cast<std::uint32_t>(volume.size.x),
+                                .height = static_cast<std::uint32_t>(volume.size.y),
+                                .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT,
+                                .layers = layers,
+                                .view_type = VK_IMAGE_VIEW_TYPE_2D_ARRAY});
+    upload(gpu, irradiance, std::as_bytes(std::span(halves)), 0, layers);
 }
 
 void ScenePasses::Parts::describe(const Scene& scene) {
@@ -136,6 +202,8 @@ void ScenePasses::Parts::describe(const Scene& scene) {
         note(features.normal_maps, "normal maps", "materials carry them", "no material carries one");
         note(features.alpha_mask, "alpha masks", "materials carry them", "no material carries one");
         note(features.vertex_colors, "vertex colours", "meshes carry them", "all are white");
+        note(build_irradiance, "irradiance volume", "the camera is inside the scene",
+             "the camera looks at the scene from outside: the open sky lights it");
         note(light_count > 0, "lamps", std::to_string(light_count), "the scene has none");
     }
     note(false, "sky box", "",
@@ -303,6 +371,7 @@ std::vector<ShaderConstant> ScenePasses::shading_constants() const {
         constants.push_back({shared::kConstBlend, p.build_blended ? 1u : 0u});
         constants.push_back({shared::kConstEmission, p.build_emission ? 1u : 0u});
         constants.push_back({shared::kConstLights, p.light_count});
+        constants.push_back({shared::kConstIrradiance, p.build_irradiance ? 1u : 0u});
     }
     return constants;
 }

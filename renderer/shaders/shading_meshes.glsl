@@ -9,11 +9,13 @@ layout(set = 0, binding = kBindDepth) uniform sampler2D depth_image;
 layout(set = 0, binding = kBindShadow) uniform sampler2DShadow shadow_map;
 layout(set = 0, binding = kBindBlended) uniform usampler2D blended;
 layout(set = 0, binding = kBindBlendedDepth) uniform sampler2D blended_depth;
+layout(set = 0, binding = kBindIrradiance) uniform sampler2DArray irradiance_volume;
 
 layout(constant_id = kConstSunShadow) const uint kSunShadow = 1u;
 layout(constant_id = kConstBlend) const uint kBlend = 1u;
 layout(constant_id = kConstEmission) const uint kEmission = 1u;
 layout(constant_id = kConstLights) const uint kLights = 0u;
+layout(constant_id = kConstIrradiance) const uint kIrradiance = 0u;
 layout(constant_id = kConstFootprint) const uint kUseFootprint = 1u;
 
 struct Sample {
@@ -69,6 +71,42 @@ vec3 lamp_light(Surface s, vec3 point, vec3 to_eye) {
     return sum;
 }
 
+// One colour of the volume at a position in it, layers counted from the colour's first.
+vec4 volume_at(vec2 uv, float z, float color) {
+    float layers = lighting.volume_scale.w;
+    float low = floor(z);
+    float first = color * layers;
+    vec4 a = textureLod(irradiance_volume, vec3(uv, first + low), 0.0);
+    vec4 b = textureLod(irradiance_volume, vec3(uv, first + min(low + 1.0, layers - 1.0)), 0.0);
+    return mix(a, b, z - low);
+}
+
+// What the surroundings send to a surface point, diffusely and out of the mirrored direction.
+vec3 ambient_at(Surface s, vec3 point, vec3 to_eye, float occlusion) {
+    vec3 mirror = reflect(-to_eye, s.normal);
+    vec3 sky = sky_reflection(mirror, s.roughness);
+    if (kIrradiance == 0u) return occlusion * ambient_reflected(s, to_eye, ambient_light(s.normal), sky);
+
+    // Look a little off the surface, so that the far side of a wall counts less.
+    float layers = lighting.volume_scale.w;
+    vec3 at = (point + s.normal * lighting.volume_origin.w - lighting.volume_origin.xyz) * lighting.volume_scale.xyz;
+    float z = clamp(at.z * layers - 0.5, 0.0, layers - 1.0);
+    vec4 red = volume_at(at.xy, z, 0.0);
+    vec4 green = volume_at(at.xy, z, 1.0);
+    vec4 blue = volume_at(at.xy, z, 2.0);
+    vec4 facing = vec4(1.0, s.normal.yzx);
+    vec3 irradiance = max(vec3(dot(red, facing), dot(green, facing), dot(blue, facing)), 0.0);
+    // The same numbers as radiance: the directional part is half as strong again.
+    vec4 along = vec4(1.0, 1.5 * mirror.yzx);
+    vec3 around = max(vec3(dot(red, along), dot(green, along), dot(blue, along)), 0.02 * irradiance);
+    // Smooth surfaces mirror the sky itself, as far as its light gets here.
+    vec3 open_sky = max(ambient_light(mirror), vec3(1e-3));
+    const vec3 kLuminance = vec3(0.2126, 0.7152, 0.0722);
+    float reaches = clamp(dot(around, kLuminance) / dot(open_sky, kLuminance), 0.0, 1.0);
+    vec3 mirrored = mix(sky * reaches, around, clamp(0.25 + s.roughness, 0.0, 1.0));
+    return occlusion * ambient_reflected(s, to_eye, irradiance, mirrored);
+}
+
 vec3 lit(Sample s, vec3 point, vec3 to_eye) {
     vec3 to_sun = lighting.sun_direction.xyz;
     vec3 light = s.emitted;
@@ -76,8 +114,7 @@ vec3 lit(Sample s, vec3 point, vec3 to_eye) {
         light += reflected(s.surface, to_eye, to_sun) * lighting.sun_irradiance.rgb *
                  sun_visible(point, s.surface.normal);
     light += lamp_light(s.surface, point, to_eye);
-    vec3 mirrored = sky_reflection(reflect(-to_eye, s.surface.normal), s.surface.roughness);
-    return light + s.occlusion * ambient_reflected(s.surface, to_eye, ambient_light(s.surface.normal), mirrored);
+    return light + ambient_at(s.surface, point, to_eye, s.occlusion);
 }
 
 // Highlights narrower than the sample are widened to it: the spread of the normals around becomes roughness

@@ -15,6 +15,7 @@ const uint kBindDepth = 3u;     // sampler2D, reversed depth
 const uint kBindShadow = 4u;    // sampler2DShadow, the sun's map
 const uint kBindBlended = 5u;   // usampler2D, the nearest blended surface
 const uint kBindBlendedDepth = 6u;
+const uint kBindIrradiance = 7u;  // sampler2DArray, the irradiance volume: layer = colour * depth + z
 
 // Specialization constants of the shading shaders. Ids below 64 are free for the methods.
 const uint kConstSunShadow = 64u;   // 1: the sun casts shadows
@@ -80,12 +81,12 @@ struct Lighting {
     mat4 shadow_from_world;  // the sun's map: xy texture position, z depth
     vec4 sun_direction;      // towards the sun; w: exposure
     vec4 sun_irradiance;     // w: shadow map texel, metres
-    vec4 sky_zenith;         // w: number of environment levels - 1
+    vec4 sky_zenith;
     vec4 sky_horizon;
     vec4 sky_ground;
     vec4 ambient[9];     // irradiance / pi over the normal, spherical harmonics of degree 2
-    vec4 volume_origin;  // the irradiance volume's corner; w: 1 where there is one
-    vec4 volume_scale;   // 1 / extent
+    vec4 volume_origin;  // the irradiance volume's lower corner; w: how far off a surface to look, metres
+    vec4 volume_scale;   // 1 / extent; w: layers of one colour
     LightRecord lights[64];
 };
 
