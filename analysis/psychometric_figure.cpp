@@ -50,7 +50,8 @@ std::string level_block(const std::string& name, const PsychometricFit& fit) {
 
 std::string title_text(const std::string& heading, const StudyDescription& study) {
     std::string title = "\"{/:Bold \"." + gnuplot_quoted(heading) + ".\"}\"";
-    if (!study.data_origin.empty()) title += ".\"\\nData: \"." + gnuplot_quoted(study.data_origin);
+    title += study.data_origin.empty() ? ".\"\\n \""
+                                       : ".\"\\nData: \"." + gnuplot_quoted(study.data_origin) + ".\"\\n \"";
     return title;
 }
 
@@ -59,7 +60,7 @@ std::string panel_settings(const XRange& range, const StudyDescription& study) {
     return "set border 3 linewidth 0.7 linecolor rgb '#333333'\nset tics nomirror out scale 0.5\nset xrange "
            "[" +
            fixed_text(range.low, 4) + ":" + fixed_text(range.high, 4) +
-           "]\nset yrange [0:100]\nset ytics 0,20,100\n" +
+           "]\nset yrange [0:100]\nset ytics 0,20,100\nset xtics 1\n" +
            "set grid ytics linetype 1 linewidth 0.3 linecolor rgb '#E3E3E3'\n" +
            "criterion_share = " + fixed_text(share, 4) + "\n";
 }
@@ -85,8 +86,8 @@ std::string psychometric_figure_script(const PsychometricResults& results, const
         body += "unset arrow\nunset label\n";
         if (at.value && *at.value > range.low && *at.value < range.high) {
             note += ":  σ² = " + fixed_text(*at.value, 2);
-            if (at.low && at.high)
-                note += "  [" + fixed_text(*at.low, 2) + ", " + fixed_text(*at.high, 2) + "]";
+            note += "  [" + (at.low ? fixed_text(*at.low, 2) : "below") + ", " +
+                    (at.high ? fixed_text(*at.high, 2) : "above") + "]";
             const double low = std::max(at.low.value_or(range.low), range.low),
                          high = std::min(at.high.value_or(range.high), range.high);
             body += "set arrow 1 from " + fixed_text(low, 4) + ",criterion_share to " + fixed_text(high, 4) +
@@ -117,7 +118,7 @@ std::string participants_figure_script(const PsychometricResults& results, const
     const std::size_t people = results.participants.size();
     const std::size_t columns = std::min<std::size_t>(people, 6), rows = (people + columns - 1) / columns;
     std::string body = panel_settings(range, study);
-    body += "set ytics 0,50,100\nset multiplot layout " + std::to_string(rows) + "," +
+    body += "set ytics 0,50,100\nset xtics 2\nset multiplot layout " + std::to_string(rows) + "," +
             std::to_string(columns) + " title " +
             title_text("Answers “different” (%) against σ², each participant", study) + " offset 0,-0.3\n";
     body +=

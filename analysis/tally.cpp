@@ -20,12 +20,19 @@ void insert_sorted(std::vector<double>& values, double value) {
 
 }  // namespace
 
-std::size_t Tally::participant_index(const std::string& name) {
-    if (last_participant_ < participants_.size() && participants_[last_participant_] == name)
+std::size_t Tally::participant_index(const Response& response) {
+    if (last_participant_ < participants_.size() &&
+        participants_[last_participant_] == response.participant &&
+        participant_sites_[last_participant_] == response.site)
         return last_participant_;
-    const auto [at, added] = index_of_.emplace(name, participants_.size());
+    const auto [at, added] =
+        index_of_.emplace(response.site + '\x1f' + response.participant, participants_.size());
     if (added) {
-        participants_.push_back(name);
+        const bool taken = std::find(participants_.begin(), participants_.end(), response.participant) !=
+                           participants_.end();
+        participants_.push_back(taken ? response.participant + " (" + response.site + ")"
+                                      : response.participant);
+        participant_sites_.push_back(response.site);
         validation_.emplace_back();
     }
     return last_participant_ = at->second;
@@ -49,7 +56,7 @@ void Tally::add(const Response& response) {
         if (!response.validation) ++condition_answers(response).records.excluded;
         return;
     }
-    const std::size_t participant = participant_index(response.participant);
+    const std::size_t participant = participant_index(response);
     if (response.validation) {
         ++validation_trials_;
         ++validation_[participant].n;

@@ -68,6 +68,7 @@ class Tally {
     std::int64_t validation_trials() const { return validation_trials_; }
     std::int64_t excluded() const { return excluded_; }
     const std::map<std::string, std::int64_t>& exclusions() const { return exclusions_; }
+    // One name at two sites is two people; the later one's name is then followed by the site.
     const std::vector<std::string>& participants() const { return participants_; }
     std::int64_t sessions() const;  // participant-sessions with a counted trial
 
@@ -89,11 +90,12 @@ class Tally {
         ConditionRecords records;
     };
     ConditionAnswers& condition_answers(const Response& response);
-    std::size_t participant_index(const std::string& name);
+    std::size_t participant_index(const Response& response);
 
     Exclusions use_exclusions_;
     std::vector<std::string> participants_;
     std::unordered_map<std::string, std::size_t> index_of_;
+    std::vector<std::string> participant_sites_;
     std::size_t last_participant_ = 0;
     std::map<Condition, ConditionAnswers> conditions_;
     std::vector<ClusterCount> validation_;
