@@ -21,10 +21,11 @@ void AnalyzeCommand::run() const {
 }
 
 void analyze_and_print(const std::vector<std::string>& inputs, const std::string& out) {
-    const StudyData data = read_study_data(inputs);
-    const AnalysisFiles files = write_analysis(data.responses, data.description, out);
-    std::printf("%s\nfigure  %s\ntable   %s\nreport  %s\n",
-                table1_text(data.responses, data.description).c_str(), files.figure.c_str(),
+    StudyTally tally;
+    const StudyData data = read_study(inputs, [&](const Response& response) { tally.add(response); });
+    for (const std::string& problem : data.problems) std::fprintf(stderr, "parafovea: %s\n", problem.c_str());
+    const AnalysisFiles files = write_analysis(tally, data.description, data.recordings, out);
+    std::printf("%s\nfigure  %s\ntable   %s\nreport  %s\n", files.table1.c_str(), files.figure.c_str(),
                 files.table.c_str(), files.report.c_str());
 }
 
