@@ -77,6 +77,9 @@ struct LuminancePyramid {
 // pictures, for an observer who is not told which is the reference.
 enum class ContrastBackground { reference, mean_of_both };
 
+// What is seen as steady and what as changing; still pictures have only the sustained channel.
+enum class TemporalChannel { sustained, transient };
+
 // The part of the judgement of one pair that does not depend on gaze.
 struct ContrastBands {
     struct Band {
@@ -89,6 +92,7 @@ struct ContrastBands {
         std::vector<std::uint16_t> background_code;  // luminance in steps of 1/64 octave
     };
     DisplayModel display;
+    TemporalChannel channel = TemporalChannel::sustained;
     bool identical = false;  // no band holds a difference of contrast: every gaze gives 0
     std::vector<Band> bands;
 };
@@ -127,8 +131,5 @@ VisibleDifference compare(const ContrastBands& bands, GazePx gaze, double sensit
 
 // JOD of a pooled difference Q >= 0: 10 - a Q^b.
 double jod_from_q(double q);
-
-// Sensitivity (1 / threshold contrast) at zero eccentricity, before the metric's overall gain.
-double foveal_sensitivity(double frequency_cpd, double luminance_cd_m2 = 50);
 
 }  // namespace parafovea

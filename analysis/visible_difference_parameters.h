@@ -1,8 +1,6 @@
 // The published parameters of the visible-difference predictor, and the frequencies of its bands.
 #pragma once
 
-#include <cmath>
-
 #include "analysis/visible_difference.h"
 
 // Compiles a function for AVX2 as well and picks at load time. Only for functions without reductions over
@@ -16,8 +14,9 @@
 namespace parafovea {
 
 // FovVideoVDP 1.2.
-constexpr float kDifferencePower = 2.4f;          // of the contrast difference
-constexpr float kMaskingPower = 2.43685f;         // of the masker, sustained channel
+constexpr float kDifferencePower = 2.4f;            // of the contrast difference
+constexpr float kSustainedMaskingPower = 2.43685f;  // of the masker
+constexpr float kTransientMaskingPower = 4.946f;
 constexpr float kMaskingGain = 0.106209f;         // 10^-0.973838
 constexpr float kPoolingPower = 1.52134f;         // over the pixels of a band
 constexpr double kSensitivityGainDb = 16.2596;    // of the contrast sensitivity function, 20 dB a decade
@@ -29,15 +28,6 @@ constexpr float kMostContrast = 1000.0f;
 constexpr float kMostDifference = 1e4f;
 constexpr float kLeastBackground = 0.1f;    // cd/m2
 constexpr double kLeastFrequencyCpd = 0.5;  // the last band is the first below this
-
-// Luminance of the background is kept as a code of 1/64 octave from 2^-4 to 2^12 cd/m2.
-constexpr int kLuminanceCodes = 1024;
-constexpr float kLuminanceCodesPerOctave = 64, kLog2OfFirstLuminance = -4;
-constexpr double kStandardLuminance = 50;  // cd/m2, of the tabulated sensitivity
-
-inline double luminance_of_code(int code) {
-    return std::exp2(kLog2OfFirstLuminance + code / double{kLuminanceCodesPerOctave});
-}
 
 // Centre frequency of a band at the centre of the picture, in cycles per degree.
 double band_frequency_cpd(const DisplayModel& display, int band);

@@ -1,14 +1,17 @@
 // From pictures to contrast: luminance, Gaussian and Laplacian pyramids, and what of a pair's contrast does
 // not depend on gaze.
+#include "analysis/visible_difference_pyramid.h"
+
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
 #include <string>
 
-#include "analysis/visible_difference.h"
 #include "analysis/visible_difference_parameters.h"
 #include "analysis/visible_difference_power.h"
+#include "analysis/visible_difference_sensitivity.h"
 
 namespace parafovea {
 namespace {
@@ -87,14 +90,13 @@ void expand_row(const Level& in, int y, int out_width, std::vector<float>& narro
 // One row of the two band-pass pictures to powers of contrast.
 PARAFOVEA_VECTORISED
 void contrast_row(const float* test, const float* reference, const float* test_low,
-                  const float* reference_low, float test_background_share, float gain, int width,
-                  float* __restrict difference, float* __restrict masker,
+                  const float* reference_low, const float* background, float gain, float masking_power,
+                  int width, float* __restrict difference, float* __restrict masker,
                   std::uint16_t* __restrict background_code) {
     for (int x = 0; x < width; ++x) {
-        const float mean = reference_low[x] + test_background_share * (test_low[x] - reference_low[x]);
-        const float background = mean > kLeastBackground ? mean : kLeastBackground;
-        const float code = 0.5f + kLuminanceCodesPerOctave * (fast_log2(background) - kLog2OfFirstLuminance);
-        const float scale = gain / background;
+        const float luminance = background[x] > kLeastBackground ? background[x] : kLeastBackground;
+        const float code = 0.5f + kLuminanceCodesPerOctave * (fast_log2(luminance) - kLog2OfFirstLuminance);
+        const float scale = gain / luminance;
         float t = (test[x] - test_low[x]) * scale, r = (reference[x] - reference_low[x]) * scale;
         t = t > kMostContrast ? kMostContrast : (t < -kMostContrast ? -kMostContrast : t);
         r = r > kMostContrast ? kMostContrast : (r < -kMostContrast ? -kMostContrast : r);
@@ -103,8 +105,13 @@ void contrast_row(const float* test, const float* reference, const float* test_l
         const float apart = std::fabs(t - r);
         const float at = std::fabs(t), ar = std::fabs(r);
         difference[x] = fast_power(apart, kDifferencePower * kPoolingPower);
-        masker[x] = fast_power((at < ar ? at : ar) * kMaskingGain, kMaskingPower);
+        masker[x] = fast_power((at < ar ? at : ar) * kMaskingGain, masking_power);
     }
+}
+
+PARAFOVEA_VECTORISED
+void mean_row(const float* a, const float* b, int width, float* mean) {
+    for (int x = 0; x < width; ++x) mean[x] = 0.5f * (a[x] + b[x]);
 }
 
 void check(RgbaView picture, const DisplayModel& d) {
@@ -133,7 +140,7 @@ double DisplayModel::pixels_per_degree() const {
     return distance_px() * std::tan(std::numbers::pi / 180);
 }
 
-LuminancePyramid luminance_pyramid(RgbaView picture, const DisplayModel& display) {
+Level luminance_plane(RgbaView picture, const DisplayModel& display) {
     check(picture, display);
 
     // Tabulate each channel's share of luminance.
@@ -147,7 +154,6 @@ LuminancePyramid luminance_pyramid(RgbaView picture, const DisplayModel& display
     }
     const auto floor_cd_m2 = static_cast<float>(black + display.ambient_reflection_cd_m2);
 
-    LuminancePyramid pyramid{display, {}};
     Level full{picture.width, picture.height, {}};
     full.luminance_cd_m2.resize(static_cast<std::size_t>(picture.width) * picture.height);
     const std::uint8_t* byte = picture.bytes.data();
@@ -155,39 +161,73 @@ LuminancePyramid luminance_pyramid(RgbaView picture, const DisplayModel& display
         luminance = floor_cd_m2 + (red[byte[0]] + green[byte[1]] + blue[byte[2]]);
         byte += 4;
     }
-    pyramid.levels.push_back(std::move(full));
+    return full;
+}
 
+LuminancePyramid pyramid_over(Level full, const DisplayModel& display) {
+    LuminancePyramid pyramid{display, {}};
+    pyramid.levels.push_back(std::move(full));
     const int bands = band_count(display);
     for (int b = 0; b < bands; ++b) pyramid.levels.push_back(reduce(pyramid.levels.back()));
     return pyramid;
 }
 
+LuminancePyramid luminance_pyramid(RgbaView picture, const DisplayModel& display) {
+    return pyramid_over(luminance_plane(picture, display), display);
+}
+
 ContrastBands contrast_bands(const LuminancePyramid& test, const LuminancePyramid& reference,
                              ContrastBackground background) {
-    if (test.display != reference.display || test.levels.size() != reference.levels.size() ||
-        test.levels.empty())
-        throw std::runtime_error("visible difference: the two pictures are not of the same display");
+    return relative_contrast(test, reference, test, reference, background, TemporalChannel::sustained);
+}
 
-    ContrastBands bands{reference.display, true, {}};
-    const float test_share = background == ContrastBackground::mean_of_both ? 0.5f : 0.0f;
+ContrastBands relative_contrast(const LuminancePyramid& test, const LuminancePyramid& reference,
+                                const LuminancePyramid& steady_test, const LuminancePyramid& steady_reference,
+                                ContrastBackground background, TemporalChannel channel) {
+    for (const LuminancePyramid* p : {&test, &reference, &steady_test, &steady_reference})
+        if (p->display != reference.display || p->levels.size() != reference.levels.size() ||
+            p->levels.empty())
+            throw std::runtime_error("visible difference: the two pictures are not of the same display");
+
+    const bool still = &test == &steady_test && &reference == &steady_reference;
+    const bool mean = background == ContrastBackground::mean_of_both;
+    const float masking_power =
+        channel == TemporalChannel::sustained ? kSustainedMaskingPower : kTransientMaskingPower;
+    ContrastBands bands{reference.display, channel, true, {}};
     for (std::size_t b = 0; b + 1 < test.levels.size(); ++b) {
         const Level &t = test.levels[b], &r = reference.levels[b];
+        const int width = t.width;
         const std::size_t pixels = t.luminance_cd_m2.size();
-        ContrastBands::Band band{t.width,
+        ContrastBands::Band band{width,
                                  t.height,
                                  band_frequency_cpd(reference.display, static_cast<int>(b)),
                                  std::vector<float>(pixels),
                                  std::vector<float>(pixels),
                                  std::vector<std::uint16_t>(pixels)};
         // Band-pass: the picture less its own blurred self, relative to the blurred background.
-        std::vector<float> narrow(test.levels[b + 1].width + 4), test_low(t.width), reference_low(t.width);
+        std::vector<float> narrow(test.levels[b + 1].width + 4), test_low(width), reference_low(width),
+            steady_low(width), other_low(width);
         for (int y = 0; y < t.height; ++y) {
-            expand_row(test.levels[b + 1], y, t.width, narrow, test_low.data());
-            expand_row(reference.levels[b + 1], y, t.width, narrow, reference_low.data());
-            const std::size_t at = static_cast<std::size_t>(y) * t.width;
+            expand_row(test.levels[b + 1], y, width, narrow, test_low.data());
+            expand_row(reference.levels[b + 1], y, width, narrow, reference_low.data());
+            const float* under = reference_low.data();
+            if (!still) {
+                expand_row(steady_reference.levels[b + 1], y, width, narrow, steady_low.data());
+                under = steady_low.data();
+            }
+            if (mean) {
+                const float* other = test_low.data();
+                if (!still) {
+                    expand_row(steady_test.levels[b + 1], y, width, narrow, other_low.data());
+                    other = other_low.data();
+                }
+                mean_row(under, other, width, steady_low.data());
+                under = steady_low.data();
+            }
+            const std::size_t at = static_cast<std::size_t>(y) * width;
             // The finest band's kernel passes its frequency whole, the others' only half.
-            contrast_row(row_of(t, y), row_of(r, y), test_low.data(), reference_low.data(), test_share,
-                         b == 0 ? 1.0f : 2.0f, t.width, &band.difference[at], &band.masker[at],
+            contrast_row(row_of(t, y), row_of(r, y), test_low.data(), reference_low.data(), under,
+                         b == 0 ? 1.0f : 2.0f, masking_power, width, &band.difference[at], &band.masker[at],
                          &band.background_code[at]);
         }
         if (std::any_of(band.difference.begin(), band.difference.end(), [](float d) { return d > 0; }))

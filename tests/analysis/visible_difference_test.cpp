@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "analysis/visible_difference_power.h"
+#include "analysis/visible_difference_sensitivity.h"
 #include "tests/analysis/visible_difference_oracle.h"
 #include "tests/analysis/visible_difference_pictures.h"
 
