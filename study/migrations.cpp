@@ -19,6 +19,7 @@ void to_version_2(Database& database) {
         "ALTER TABLE trial ADD COLUMN content_hash INTEGER;"
         "ALTER TABLE frame ADD COLUMN gaze_known INTEGER;"
         "ALTER TABLE frame ADD COLUMN events_known INTEGER;"
+        "ALTER TABLE frame ADD COLUMN fault TEXT;"
         "ALTER TABLE session ADD COLUMN view_width_px INTEGER NOT NULL DEFAULT 0;"
         "ALTER TABLE session ADD COLUMN view_height_px INTEGER NOT NULL DEFAULT 0;"
         "ALTER TABLE session ADD COLUMN view_fov_deg REAL NOT NULL DEFAULT 0;");

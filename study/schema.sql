@@ -121,6 +121,7 @@ CREATE TABLE frame (
     gaze_age_ns      INTEGER,           -- of that sample at display
     gaze_known       INTEGER,           -- rows of gaze that had arrived when it was prepared; NULL: written by version 1
     events_known     INTEGER,           -- rows of controller_event that had arrived when it had been shown; NULL: likewise
+    fault            TEXT,              -- what the display did wrong, e.g. 'display_time_backwards'; NULL: nothing
     PRIMARY KEY (trial_id, frame)
 ) WITHOUT ROWID;
 

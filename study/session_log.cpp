@@ -48,8 +48,8 @@ std::int64_t last_wall_ns(Database& database) {
 }  // namespace
 
 struct SessionLog::State {
-    State(const std::filesystem::path& path, SessionFileLock::Mode mode, const char* vfs)
-        : lock(path, mode), database(path, Database::Mode::write, vfs) {}
+    State(SessionFileLock held, const std::filesystem::path& path, const char* vfs)
+        : lock(std::move(held)), database(path, Database::Mode::write, vfs) {}
 
     ~State() {
         {
@@ -107,7 +107,8 @@ struct SessionLog::State {
     Protocol protocol;
     TrialPlan plan;
     std::vector<ShownTrial> shown;
-    std::set<std::string> pages_left;
+    std::set<std::string> pages_left, questionnaires;
+    bool simulated_people = false;
     std::int64_t anchor = 0;
     double age_h = 0;
     bool resumed = false, finished = false;
@@ -145,8 +146,23 @@ SessionLog::~SessionLog() = default;
 SessionLog SessionLog::create(const std::filesystem::path& path, const SessionFacts& facts,
                               const Protocol& protocol, const TrialPlan& plan, ClockAnchor anchor,
                               const char* vfs) {
-    auto state = std::make_unique<State>(path, SessionFileLock::Mode::create, vfs);
-    Database& database = state->database;
+    SessionFileLock lock(path, SessionFileLock::Mode::create);
+    try {
+        auto state = std::make_unique<State>(std::move(lock), path, vfs);
+        write_new_file(*state, facts, protocol, plan, anchor);
+        state->start_writer();
+        return SessionLog(std::move(state));
+    } catch (...) {
+        // Half a file would only be in the way.
+        std::error_code ignored;
+        for (const char* end : {"", "-wal", "-shm"}) std::filesystem::remove(path.string() + end, ignored);
+        throw;
+    }
+}
+
+void SessionLog::write_new_file(State& state, const SessionFacts& facts, const Protocol& protocol,
+                                const TrialPlan& plan, ClockAnchor anchor) {
+    Database& database = state.database;
     set_up_connection(database);
     Transaction transaction(database);
     database.execute(kSchemaSql);
@@ -156,17 +172,16 @@ SessionLog SessionLog::create(const std::filesystem::path& path, const SessionFa
     if (complete.view.size.width == 0) complete.view = protocol.display.view;
     write_session(database, complete, plan);
     write_plan(database, plan, protocol);
-    state->anchor = write_anchor(database, anchor);
+    state.anchor = write_anchor(database, anchor);
     transaction.commit();
-    state->protocol = protocol;
-    state->plan = plan;
-    state->start_writer();
-    return SessionLog(std::move(state));
+    state.protocol = protocol;
+    state.plan = plan;
+    state.simulated_people = facts.simulated_people;
 }
 
 SessionLog SessionLog::open_to_resume(const std::filesystem::path& path, ClockAnchor anchor,
                                       const char* vfs) {
-    auto state = std::make_unique<State>(path, SessionFileLock::Mode::open, vfs);
+    auto state = std::make_unique<State>(SessionFileLock(path, SessionFileLock::Mode::open), path, vfs);
     Database& database = state->database;
     migrate(database);
     set_up_connection(database);
@@ -178,6 +193,9 @@ SessionLog SessionLog::open_to_resume(const std::filesystem::path& path, ClockAn
     state->age_h = std::max<double>(0, static_cast<double>(anchor.wall_ns - last_wall_ns(database))) / 3.6e12;
     Statement pages = database.prepare("SELECT detail FROM event WHERE kind = 'page'");
     while (pages.step()) state->pages_left.insert(pages.text(0));
+    Statement asked = database.prepare("SELECT name FROM questionnaire");
+    while (asked.step()) state->questionnaires.insert(asked.text(0));
+    state->simulated_people = read_facts(database).simulated_people;
     Statement finished = database.prepare("SELECT finished_host_ns FROM session");
     state->finished = finished.step() && !finished.is_null(0);
     state->resumed = true;
@@ -199,6 +217,12 @@ const std::vector<ShownTrial>& SessionLog::shown() const {
 }
 bool SessionLog::page_was_left(const std::string& page) const {
     return state_->pages_left.contains(page);
+}
+bool SessionLog::was_asked(const std::string& questionnaire) const {
+    return state_->questionnaires.contains(questionnaire);
+}
+bool SessionLog::simulated_people() const {
+    return state_->simulated_people;
 }
 bool SessionLog::resumed() const {
     return state_->resumed;
@@ -262,6 +286,7 @@ void SessionLog::append_flag(int trial_number, int attempt, std::string kind, st
 
 void SessionLog::append_questionnaire(HostTime time, std::string name,
                                       std::map<std::string, std::string> answers) {
+    state_->questionnaires.insert(name);
     state_->enqueue([=, anchor = state_->anchor](Database& database) {
         database.prepare("INSERT INTO questionnaire VALUES (NULL, ?, ?, ?)")
             .bind_all(anchor, time.ns, name)

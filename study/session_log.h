@@ -89,9 +89,11 @@ class SessionLog {
 
     const Protocol& protocol() const;
     const TrialPlan& plan() const;
-    const std::vector<ShownTrial>& shown() const;       // oldest first, those of earlier runs included
-    bool page_was_left(const std::string& page) const;  // by append_page, in this run or an earlier one
-    bool resumed() const;                               // opened, not created
+    const std::vector<ShownTrial>& shown() const;            // oldest first, those of earlier runs included
+    bool page_was_left(const std::string& page) const;       // by append_page, in this run or an earlier one
+    bool was_asked(const std::string& questionnaire) const;  // likewise, by append_questionnaire
+    bool simulated_people() const;
+    bool resumed() const;  // opened, not created
     bool finished() const;
     double age_h()
         const;  // hours between the last thing stored by an earlier run and the opening; 0 for a new file
@@ -116,6 +118,8 @@ class SessionLog {
   private:
     struct State;
     explicit SessionLog(std::unique_ptr<State> state);
+    static void write_new_file(State& state, const SessionFacts& facts, const Protocol& protocol,
+                               const TrialPlan& plan, ClockAnchor anchor);
     std::unique_ptr<State> state_;
 };
 

@@ -187,7 +187,7 @@ std::vector<FrameRecord> read_frames(const std::filesystem::path& path, int tria
         *open,
         "SELECT frame, phase, display_host_ns, time_source, missed_vsyncs, gpu_ns, "
         "image_hash, fovea_x_px, fovea_y_px, "
-        "fallback, gaze_sequence, gaze_age_ns, gaze_known, events_known FROM frame JOIN trial USING "
+        "fallback, gaze_sequence, gaze_age_ns, gaze_known, events_known, fault FROM frame JOIN trial USING "
         "(trial_id) WHERE trial = ? AND attempt = ? ORDER BY frame",
         trial_number, attempt);
     while (row.step()) {
@@ -206,6 +206,7 @@ std::vector<FrameRecord> read_frames(const std::filesystem::path& path, int tria
         if (const auto age = row.optional_integer(11)) frame.gaze_age = Duration{*age};
         frame.gaze_known = static_cast<int>(row.integer(12));
         frame.events_known = static_cast<int>(row.integer(13));
+        frame.shown.fault = row.text(14);
         frames.push_back(frame);
     }
     return frames;

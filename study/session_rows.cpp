@@ -44,7 +44,7 @@ void write_intervals(Database& database, const TrialRecord& record, std::int64_t
 
 void write_frames(Database& database, const TrialRecord& record, std::int64_t trial_id) {
     Statement insert =
-        database.prepare("INSERT INTO frame VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+        database.prepare("INSERT INTO frame VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
     for (const FrameRecord& frame : record.frames) {
         insert.bind_all(trial_id, frame.shown.index, static_cast<int>(frame.phase),
                         frame.shown.display_time.ns, static_cast<int>(frame.shown.time_source),
@@ -53,7 +53,8 @@ void write_frames(Database& database, const TrialRecord& record, std::int64_t tr
         insert.bind(frame.shown.image_hash ? std::optional(bits(*frame.shown.image_hash)) : std::nullopt);
         insert.bind_all(frame.fovea.x, frame.fovea.y, frame.fallback, frame.gaze_sequence);
         insert.bind(frame.gaze_age ? std::optional(frame.gaze_age->ns) : std::nullopt);
-        insert.bind_all(frame.gaze_known, frame.events_known).run();
+        insert.bind_all(frame.gaze_known, frame.events_known);
+        insert.bind(frame.shown.fault.empty() ? std::nullopt : std::optional(frame.shown.fault)).run();
     }
 }
 

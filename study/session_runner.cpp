@@ -57,6 +57,7 @@ class RunningSession {
 
     SessionEnd run() {
         if (log_.resumed()) go_on_after_interruption();
+        if (!ask_all(questionnaires_before(protocol_))) return stopped();
         page("introduction", protocol_.text().introduction);
         calibrate();
         while (const std::optional<NextTrial> next =
@@ -68,6 +69,7 @@ class RunningSession {
         if (hooks_.stop.stop_requested()) return stopped();
         if (!log_.finished()) log_.finish(clock_.now());
         tell("finished", nullptr);
+        if (!ask_all(questionnaires_after(protocol_))) return stopped();
         if (!protocol_.text().finished.empty()) page("finished", protocol_.text().finished);
         log_.wait_until_durable();
         return SessionEnd::finished;
@@ -80,6 +82,30 @@ class RunningSession {
         log_.append_event(clock_.now(), "stopped", "");
         log_.wait_until_durable();
         return SessionEnd::stopped;
+    }
+
+    // False where the participant leaves or cannot take part.
+    bool ask_all(const std::vector<Questionnaire>& questionnaires) {
+        for (const Questionnaire& questionnaire : questionnaires) {
+            if (log_.was_asked(questionnaire.name) || log_.simulated_people()) continue;
+            if (!hooks_.ask) {
+                if (questionnaire.name == "consent")
+                    throw std::runtime_error(
+                        "consent: expected the participant's consent in the session file, found none; record "
+                        "it first");
+                log_.append_event(clock_.now(), "not asked", questionnaire.name);
+                continue;
+            }
+            tell(questionnaire.name.c_str(), nullptr);
+            const std::optional<QuestionnaireAnswers> answers = hooks_.ask(questionnaire);
+            if (!answers) return false;
+            log_.append_questionnaire(clock_.now(), questionnaire.name, *answers);
+            if (const auto reason = reason_not_to_take_part(protocol_, questionnaire, *answers)) {
+                log_.append_event(clock_.now(), "not taking part", *reason);
+                return false;
+            }
+        }
+        return true;
     }
 
     void go_on_after_interruption() {

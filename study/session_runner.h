@@ -10,6 +10,7 @@
 #include "devices/clock.h"
 #include "devices/controller_source.h"
 #include "devices/gaze_source.h"
+#include "study/questionnaire.h"
 #include "study/session_log.h"
 #include "study/stage.h"
 
@@ -33,7 +34,10 @@ struct SessionHooks {
     std::function<void(const TrialRecord&)> on_trial;  // after each, before the next
     std::function<OperatorRequest()> operator_request;
     std::function<std::optional<CalibrationRecord>()>
-        calibrate;         // runs and measures a calibration; none if it was skipped
+        calibrate;  // runs and measures a calibration; none if it was skipped
+    // Asks the participant; nothing where they leave instead. Needed where the protocol asks for consent and
+    // people are real, unless the log holds their consent already. Every answer must pass answer_mistake.
+    std::function<std::optional<QuestionnaireAnswers>(const Questionnaire&)> ask;
     std::stop_token stop;  // ends the session; it can be resumed
 };
 
@@ -46,8 +50,9 @@ struct SessionOptions {
 
 enum class SessionEnd { finished, stopped };
 
-// Runs what is still to do in the log's plan. Every answer is durable before the next stimulus. Throws what
-// stage, devices or disk throw; the log then holds every answer given.
+// Runs what is still to do in the log's plan, consent and questions before any gaze is read. Every answer is
+// durable before the next stimulus. Throws what stage, devices or disk throw; the log then holds every answer
+// given.
 SessionEnd run_session(SessionLog& log, Stage& stage, GazeSource& gaze, ControllerSource& controller,
                        Clock& clock, const SessionHooks& hooks = {}, const SessionOptions& options = {});
 

@@ -34,6 +34,7 @@ struct ShownFrame {
     int missed_vsyncs = 0;  // refreshes since the previous frame beyond the one expected
     std::optional<Duration> gpu_time;
     std::optional<std::uint64_t> image_hash;  // of the rendered pixels, where the stage rendered this frame
+    std::string fault;  // what the display did wrong, e.g. "display_time_backwards"; empty: nothing
 };
 
 class Stage {

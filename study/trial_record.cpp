@@ -66,6 +66,7 @@ std::uint64_t content_hash(const TrialRecord& record) {
             .add(frame.shown.missed_vsyncs)
             .add(frame.shown.gpu_time)
             .add(frame.shown.image_hash)
+            .add(frame.shown.fault)
             .add(frame.fovea)
             .add(frame.fallback)
             .add(frame.gaze_sequence)

@@ -1,6 +1,8 @@
 // The validity rules.
 #include "study/trial_validity.h"
 
+#include <algorithm>
+
 namespace parafovea {
 namespace {
 
@@ -63,6 +65,9 @@ std::vector<std::string> broken_rules(const TrialRecord& record, const Protocol&
     if (rules.missed_frames && missed > *rules.missed_frames) broken.push_back("missed_frames");
     if (!display_times_rise(record)) broken.push_back("display_time");
     if (rules.unanswered && !record.answer) broken.push_back("unanswered");
+    for (const FrameRecord& frame : record.frames)
+        if (!frame.shown.fault.empty() && std::ranges::find(broken, frame.shown.fault) == broken.end())
+            broken.push_back(frame.shown.fault);
     return broken;
 }
 
