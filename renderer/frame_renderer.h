@@ -31,6 +31,10 @@ class FrameRenderer {
     RenderedFrame render(SizePx size, const CameraView& view, const RenderMethod& method, PointPx gaze,
                          bool read_pixels = true);
 
+    // What render() drew last, in the layout of kUseColorTarget, or of kUseTransferSource where the pixels
+    // were read. Drawn again by the next render().
+    const GpuImage& target() const { return target_; }
+
   private:
     void make_targets(SizePx size);
     FoveationMethod& method_called(const std::string& name);
