@@ -26,7 +26,8 @@ KfrSetting kfr_setting(const RenderMethod& method);
 // How the result is stored.
 struct KfrFormats {
     VkFormat target = VK_FORMAT_R8G8B8A8_SRGB;
-    VkFormat reduced = VK_FORMAT_R16G16B16A16_SFLOAT;
+    VkFormat reduced =
+        VK_FORMAT_R16G16B16A16_UNORM;  // display-linear values in [0, 1]; finer than halves near 1
     bool exact_bilinear = false;  // Pass II interpolates with full float weights instead of the sampler's
 };
 

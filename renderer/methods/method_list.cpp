@@ -12,6 +12,16 @@ namespace {
 
 constexpr VkFormat kTargetFormat = VK_FORMAT_R8G8B8A8_SRGB;
 
+// Display-linear values with 16 bits each; halves where the device cannot draw to fixed-point ones.
+VkFormat reduced_format(const Gpu& gpu) {
+    VkFormatProperties properties;
+    vkGetPhysicalDeviceFormatProperties(gpu.physical_device(), VK_FORMAT_R16G16B16A16_UNORM, &properties);
+    const VkFormatFeatureFlags needed =
+        VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BIT | VK_FORMAT_FEATURE_SAMPLED_IMAGE_FILTER_LINEAR_BIT;
+    return (properties.optimalTilingFeatures & needed) == needed ? VK_FORMAT_R16G16B16A16_UNORM
+                                                                 : VK_FORMAT_R16G16B16A16_SFLOAT;
+}
+
 [[noreturn]] void refuse(const std::string& name) {
     std::string names;
     for (const MethodName& known : method_names()) names += (names.empty() ? "" : ", ") + known.name;
@@ -30,7 +40,9 @@ const std::vector<MethodName>& method_names() {
 
 std::unique_ptr<FoveationMethod> make_method(Gpu& gpu, const std::string& name, const ShadingSource& source) {
     if (name == "full") return std::make_unique<FullMethod>(gpu, source, kTargetFormat);
-    if (name == "kfr") return std::make_unique<KfrMethod>(gpu, source, KfrFormats{.target = kTargetFormat});
+    if (name == "kfr")
+        return std::make_unique<KfrMethod>(
+            gpu, source, KfrFormats{.target = kTargetFormat, .reduced = reduced_format(gpu)});
     refuse(name);
 }
 

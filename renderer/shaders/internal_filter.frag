@@ -14,6 +14,8 @@ vec4 column(int u, ivec3 v) {
 void main() {
     ivec2 size = textureSize(reduced, 0);
     ivec2 texel = ivec2(gl_FragCoord.xy);
-    ivec3 v = ivec3((texel.y + size.y - 1) % size.y, texel.y, (texel.y + 1) % size.y);
+    int above = texel.y > 0 ? texel.y - 1 : size.y - 1;
+    int below = texel.y + 1 < size.y ? texel.y + 1 : 0;
+    ivec3 v = ivec3(above, texel.y, below);
     color = (column(max(texel.x - 1, 0), v) + 2.0 * column(texel.x, v) + column(min(texel.x + 1, size.x - 1), v)) / 16.0;
 }

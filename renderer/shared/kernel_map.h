@@ -126,8 +126,7 @@ SHARED_FUNCTION float turns_of(float x, float y) {
 SHARED_FUNCTION vec2 buffer_from_screen(KernelMap map, vec2 position) {
     float x = position.x - map.gaze.x;
     float y = position.y - map.gaze.y;
-    float r = max(sqrt(x * x + y * y), 1.0f);
-    float radial = min(log(r) / map.log_max_radius, 1.0f);
+    float radial = min(0.5f * log(max(x * x + y * y, 1.0f)) / map.log_max_radius, 1.0f);
     float u = map.as_printed == 0u ? kernel(map, radial) : inverse_kernel(map, radial);
     return vec2(u * map.buffer_size.x, turns_of(x, y) * map.buffer_size.y);
 }
