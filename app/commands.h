@@ -33,7 +33,7 @@ class PlanCommand {
   private:
     void run() const;
 
-    std::string protocol_, participant_;
+    std::string protocol_, participant_, balance_;
     std::uint64_t seed_ = 0;
 };
 
@@ -115,6 +115,42 @@ class FoveateCommand {
     std::string in_, out_;
     FoveationOptions foveation_;
     bool no_filters_ = false;
+};
+
+class ExportCommand {
+  public:
+    explicit ExportCommand(CLI::App& program);
+
+  private:
+    void run() const;
+
+    std::vector<std::string> inputs_;
+    std::string format_, out_;
+};
+
+class PowerCommand {
+  public:
+    explicit PowerCommand(CLI::App& program);
+
+  private:
+    void run() const;
+
+    std::string protocol_, assume_, out_;
+    std::vector<int> participants_;
+    std::vector<double> effects_ = {0, 1};
+    int studies_ = 1000;
+    std::uint64_t seed_ = 1;
+    bool quiet_ = false;
+};
+
+class WithdrawCommand {
+  public:
+    explicit WithdrawCommand(CLI::App& program);
+
+  private:
+    void run() const;
+
+    std::string participant_, data_ = "data";
 };
 
 class ScenesCommand {

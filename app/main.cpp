@@ -13,11 +13,14 @@ int main(int argc, char** argv) {
     const parafovea::RunCommand run(program);
     const parafovea::SimulateCommand simulate(program);
     const parafovea::AnalyzeCommand analyze(program);
+    const parafovea::ExportCommand export_data(program);
+    const parafovea::PowerCommand power(program);
     const parafovea::PlanCommand plan(program);
     const parafovea::CheckCommand check(program);
     const parafovea::RenderCommand render(program);
     const parafovea::FoveateCommand foveate(program);
     const parafovea::ScenesCommand scenes(program);
+    const parafovea::WithdrawCommand withdraw(program);
 
     try {
         program.parse(argc, argv);

@@ -11,21 +11,21 @@ namespace {
 
 // The two numbers around `separator`, or false.
 template <typename Number>
-bool read_pair(std::string_view text, char separator, Number& first, Number& second) {
+bool read_pair(std::string_view text, std::string_view separator, Number& first, Number& second) {
     const std::size_t at = text.find(separator);
     if (at == std::string_view::npos) return false;
     const auto whole = [](std::string_view part, Number& value) {
         const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), value);
         return error == std::errc() && end == part.data() + part.size();
     };
-    return whole(text.substr(0, at), first) && whole(text.substr(at + 1), second);
+    return whole(text.substr(0, at), first) && whole(text.substr(at + separator.size()), second);
 }
 
 }  // namespace
 
 SizePx parse_size(const std::string& text) {
     SizePx size;
-    if (!read_pair(text, 'x', size.width, size.height) || size.width < 1 || size.height < 1)
+    if (!read_pair(text, "x", size.width, size.height) || size.width < 1 || size.height < 1)
         throw CLI::ValidationError("--size",
                                    "expected WIDTHxHEIGHT in pixels such as 1280x720, found '" + text + "'");
     return size;
@@ -33,9 +33,16 @@ SizePx parse_size(const std::string& text) {
 
 PointPx parse_point(const std::string& text) {
     PointPx point;
-    if (!read_pair(text, ',', point.x, point.y))
+    if (!read_pair(text, ",", point.x, point.y))
         throw CLI::ValidationError("--gaze", "expected X,Y in pixels such as 640,360, found '" + text + "'");
     return point;
+}
+
+std::pair<int, int> parse_range(const std::string& text) {
+    std::pair<int, int> range;
+    if (!read_pair(text, "..", range.first, range.second) || range.first < 1 || range.second < range.first)
+        throw CLI::ValidationError("--balance", "expected FIRST..LAST such as 1..28, found '" + text + "'");
+    return range;
 }
 
 }  // namespace parafovea

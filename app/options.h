@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 
 #include "devices/geometry.h"
 
@@ -12,5 +13,8 @@ SizePx parse_size(const std::string& text);
 
 // "640,360.5", in pixels from the top left corner; throws CLI::ValidationError otherwise.
 PointPx parse_point(const std::string& text);
+
+// "1..28", both above 0 and in order; throws CLI::ValidationError otherwise.
+std::pair<int, int> parse_range(const std::string& text);
 
 }  // namespace parafovea
