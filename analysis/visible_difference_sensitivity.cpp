@@ -11,10 +11,12 @@ namespace {
 
 constexpr double kStandardLuminance = 50;  // cd/m2
 
-// Sensitivity against frequency at the standard luminance, octave by octave from 2^-2 cpd.
+// Sensitivity against frequency at the standard luminance, octave by octave from 2^-2 cpd: to steady
+// contrast, and to contrast that changes at 5 Hz. Read off the authors' program: its answers to small
+// contrasts are inverted exactly by the published formulas.
 constexpr double kFirstOctave = -2;
 constexpr std::array<double, 8> kSustainedByOctave = {46, 93, 119, 97, 52, 19, 4.5, 0.8};
-constexpr std::array<double, 8> kTransientByOctave = {470, 446, 287, 119, 37.5, 10.2, 2.3, 0.44};
+constexpr std::array<double, 8> kTransientByOctave = {700, 662, 422, 175, 55, 15, 3.4, 0.65};
 
 // The monotone cubic of Fritsch and Butland (1984) through the octaves' log2 sensitivities.
 struct SensitivityCurve {
@@ -44,24 +46,19 @@ struct SensitivityCurve {
     }
 };
 
-// How sensitivity changes with luminance: stelaCSF (Mantiuk, Ashraf and Chapiro, ACM TOG 41(4), 2022), whose
-// sustained channel is a truncated log-parabola of peak height and peak frequency, and whose transient
-// channel is a power law.
+// How sensitivity changes with luminance: the sustained achromatic channel of stelaCSF (Mantiuk, Ashraf and
+// Chapiro, ACM TOG 41(4), 2022), a truncated log-parabola of peak height and peak frequency; taken for the
+// transient one, too.
 struct LuminanceFactor {
     double log10_height, log10_peak_cpd;
-    bool transient;
 
-    LuminanceFactor(double luminance_cd_m2, TemporalChannel channel)
+    explicit LuminanceFactor(double luminance_cd_m2)
         : log10_height(std::log10(44.4763 * std::pow(1 + 0.713964 / luminance_cd_m2, -0.277857) *
                                   // (1 + a / L)^-b in the limit of small a and large b
                                   -std::expm1(-7.54866e-07 * 8.50217e+09 / luminance_cd_m2))),
-          log10_peak_cpd(std::log10(1.55909 * std::pow(1 + 103.604 / luminance_cd_m2, -0.251815))),
-          transient(channel == TemporalChannel::transient) {
-        if (transient) log10_height = 0.411266 * std::log10(luminance_cd_m2);
-    }
+          log10_peak_cpd(std::log10(1.55909 * std::pow(1 + 103.604 / luminance_cd_m2, -0.251815))) {}
 
     double log10_at(double log10_frequency) const {
-        if (transient) return log10_height;
         const double beyond = std::max(log10_frequency - log10_peak_cpd, 0.0);
         return log10_height - beyond * beyond / std::exp2(0.177674);
     }
@@ -71,8 +68,8 @@ SensitivityTable make_table(TemporalChannel channel) {
     const SensitivityCurve curve(channel == TemporalChannel::sustained ? kSustainedByOctave
                                                                        : kTransientByOctave);
     std::vector<LuminanceFactor> factors;
-    for (int code = 0; code < kLuminanceCodes; ++code) factors.emplace_back(luminance_of_code(code), channel);
-    const LuminanceFactor standard(kStandardLuminance, channel);
+    for (int code = 0; code < kLuminanceCodes; ++code) factors.emplace_back(luminance_of_code(code));
+    const LuminanceFactor standard(kStandardLuminance);
     const double gain = kSensitivityGainDb / 20 * std::log2(10.0);
 
     SensitivityTable table;
@@ -97,8 +94,8 @@ double foveal_sensitivity(double frequency_cpd, double luminance_cd_m2, Temporal
                                                                        : kTransientByOctave);
     const double log10_frequency = std::log10(frequency_cpd);
     return std::exp2(curve.log2_at(std::log2(frequency_cpd))) *
-           std::pow(10, LuminanceFactor(luminance_cd_m2, channel).log10_at(log10_frequency) -
-                            LuminanceFactor(kStandardLuminance, channel).log10_at(log10_frequency));
+           std::pow(10, LuminanceFactor(luminance_cd_m2).log10_at(log10_frequency) -
+                            LuminanceFactor(kStandardLuminance).log10_at(log10_frequency));
 }
 
 const SensitivityTable& sensitivity_table(TemporalChannel channel) {
