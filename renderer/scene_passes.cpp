@@ -79,7 +79,7 @@ struct ScenePasses::Parts {
     GpuBuffer lighting_buffer;
     GpuImage gbuffer, depth, blended, blended_depth;
     GpuImage unused_words, unused_depth;  // stand at the bindings of what was left out
-    GpuImage irradiance;
+    GpuImage irradiance, light_grid;
     OwnedSampler nearest, shadow_sampler, linear;
     DescriptorSet set;
     std::vector<std::size_t> in_view;
@@ -95,6 +95,7 @@ struct ScenePasses::Parts {
     }
     void build_meshes(const Scene& scene);
     void build_irradiance_volume(const Scene& scene);
+    void build_light_grid(const Scene& scene);
     void describe(const Scene& scene);
     void make_targets();
     void find_visible(glm::vec3 eye);
@@ -124,6 +125,7 @@ void ScenePasses::Parts::build_meshes(const Scene& scene) {
                                 .address_u = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
                                 .address_v = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE});
     build_irradiance_volume(scene);
+    build_light_grid(scene);
     // One texel each, in the state in which they are bound.
     unused_words = GpuImage(gpu, {.format = VK_FORMAT_R32G32B32A32_UINT,
                                   .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT});
@@ -143,7 +145,9 @@ void ScenePasses::Parts::build_meshes(const Scene& scene) {
                               {shared::kBindShadow, texture},
                               {shared::kBindBlended, texture},
                               {shared::kBindBlendedDepth, texture},
-                              {shared::kBindIrradiance, texture}});
+                              {shared::kBindIrradiance, texture},
+                              {shared::kBindLightGrid, texture}});
+    set.set_sampled_image(shared::kBindLightGrid, light_grid.view(), nearest.get());
     set.set_sampled_image(shared::kBindIrradiance, irradiance.view(), linear.get());
     set.set_sampled_image(shared::kBindShadow, shadow ? shadow->map().view() : unused_depth.view(),
                           shadow_sampler.get());
@@ -182,6 +186,16 @@ void ScenePasses::Parts::build_irradiance_volume(const Scene& scene) {
     upload(gpu, irradiance, std::as_bytes(std::span(halves)), 0, layers);
 }
 
+void ScenePasses::Parts::build_light_grid(const Scene& scene) {
+    const LightGrid grid = make_light_grid(scene);
+    lighting.light_grid = {grid.low.x, grid.low.y, 1 / grid.cell_m.x, 1 / grid.cell_m.y};
+    light_grid = GpuImage(gpu, {.format = VK_FORMAT_R32G32_UINT,
+                                .width = static_cast<std::uint32_t>(grid.size.x),
+                                .height = static_cast<std::uint32_t>(grid.size.y),
+                                .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT});
+    upload(gpu, light_grid, std::as_bytes(std::span(grid.lights)));
+}
+
 void ScenePasses::Parts::describe(const Scene& scene) {
     const std::string forced = "forced on";
     if (ray_marched) {
@@ -204,7 +218,8 @@ void ScenePasses::Parts::describe(const Scene& scene) {
         note(features.vertex_colors, "vertex colours", "meshes carry them", "all are white");
         note(build_irradiance, "irradiance volume", "the camera is inside the scene",
              "the camera looks at the scene from outside: the open sky lights it");
-        note(light_count > 0, "lamps", std::to_string(light_count), "the scene has none");
+        note(light_count > 0, "lamps",
+             std::to_string(light_count) + ", of which a grid lists those that reach", "the scene has none");
     }
     note(false, "sky box", "",
          scene.ray_marched ? "rays that miss shade the sky" : "pixels without a surface shade the sky");
@@ -264,8 +279,8 @@ void ScenePasses::Parts::record_layer(VkCommandBuffer commands, bool blended_lay
     image_barrier(commands, words, kUseNone, kUseColorTarget);
     image_barrier(commands, distance, kUseNone, kUseDepthTarget);
     const DepthTarget depth_target{distance.view(), true, 0.0f, false};
-    // Words without a depth are never read, so they need no clearing.
-    begin_rendering(commands, words.extent(), {ColorTarget{words.view(), false, true, {}}}, &depth_target);
+    // Cleared even where nothing is drawn: a surface at the border looks at its neighbours' normals.
+    begin_rendering(commands, words.extent(), {ColorTarget{words.view(), true, false, {}}}, &depth_target);
     resources->bind_geometry(commands);
     VkPipeline bound_pipeline = VK_NULL_HANDLE;
     int bound_material = -1;
