@@ -82,6 +82,7 @@ std::string inline_svg(const std::filesystem::path& svg, const std::string& pref
     if (start == std::string::npos) throw std::runtime_error(svg.string() + ": is not an SVG file");
     text.erase(0, start);
     replace_all(text, "id=\"", "id=\"" + prefix);
+    replace_all(text, "id='", "id='" + prefix);
     replace_all(text, "href='#", "href='#" + prefix);
     replace_all(text, "href=\"#", "href=\"#" + prefix);
     replace_all(text, "url(#", "url(#" + prefix);

@@ -56,9 +56,14 @@ std::optional<GazeAccuracy> gaze_accuracy(std::span<const GazeAngle> samples, Ga
     const double dot = mean[0] * to[0] + mean[1] * to[1] + mean[2] * to[2];
     GazeAccuracy result;
     result.angle_deg = std::atan2(std::hypot(cross[0], cross[1], cross[2]), dot) / kRadians;
-    result.azimuth_deg = std::atan2(mean[0], mean[2]) / kRadians - target.azimuth_deg;
-    result.elevation_deg =
-        std::asin(std::clamp(mean[1] / length, -1.0, 1.0)) / kRadians - target.elevation_deg;
+    // Its parts: the angle along the direction in which the mean gaze misses the target, as seen from the
+    // eye.
+    const double right = mean[0] / length - to[0], up = mean[1] / length - to[1],
+                 miss = std::hypot(right, up);
+    if (miss > 0.0) {
+        result.azimuth_deg = result.angle_deg * right / miss;
+        result.elevation_deg = result.angle_deg * up / miss;
+    }
     return result;
 }
 

@@ -15,7 +15,8 @@ struct GazeAngle {
 
 struct GazeAccuracy {
     double angle_deg = 0.0;  // between the mean gaze direction (mean of unit vectors) and the target
-    double azimuth_deg = 0.0;
+    double azimuth_deg =
+        0.0;  // its part to the right; with elevation_deg they give angle_deg after Pythagoras
     double elevation_deg = 0.0;
 };
 

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <regex>
+#include <set>
 #include <sstream>
 
 #include "analysis/random_draw.h"
@@ -122,6 +124,13 @@ TEST(WriteAnalysis, makes_a_report_that_needs_no_network_and_runs_no_script) {
         EXPECT_EQ(html.find(outside), std::string::npos) << outside;
     EXPECT_NE(html.find("role=\"img\" aria-label=\"Share of trials"), std::string::npos);
     EXPECT_NE(html.find("lang=\"en\""), std::string::npos);
+    // Every reference inside the page meets its target, and no name is given twice.
+    std::multiset<std::string> ids;
+    const std::regex id("[ \\n]id=['\"]([^'\"]*)['\"]"), reference("href=['\"]#([^'\"]*)['\"]");
+    for (std::sregex_iterator at(html.begin(), html.end(), id), end; at != end; ++at) ids.insert((*at)[1]);
+    for (std::sregex_iterator at(html.begin(), html.end(), reference), end; at != end; ++at)
+        EXPECT_EQ(ids.count((*at)[1]), 1u) << (*at)[1];
+    EXPECT_GT(ids.size(), 20u);
     for (const char* bad : {">nan", " nan", ">-nan", ">inf<", " inf "})
         EXPECT_EQ(html.find(bad), std::string::npos) << bad;
 }
