@@ -198,6 +198,16 @@ Paint cloth(float u, float v, glm::vec3 dark, glm::vec3 light) {
 
 }  // namespace
 
+Paint paint_brick(float u, float v) {
+    return brick(u, v);
+}
+Paint paint_stone(float u, float v) {
+    return stone(u, v);
+}
+Paint paint_wood(float u, float v) {
+    return wood(u, v);
+}
+
 AtriumMaterials add_atrium_materials(Scene& scene) {
     AtriumMaterials m;
     m.paving = add_painted_material(scene, "paving", 1024, 3.2f, paving);

@@ -18,4 +18,9 @@ struct AtriumMaterials {
 
 AtriumMaterials add_atrium_materials(Scene& scene);
 
+// Paints that other scenes use too.
+Paint paint_brick(float u, float v);
+Paint paint_stone(float u, float v);
+Paint paint_wood(float u, float v);
+
 }  // namespace parafovea

@@ -7,16 +7,18 @@
 #include "renderer/atrium.h"
 #include "renderer/gltf_loader.h"
 #include "renderer/primitives_scene.h"
+#include "renderer/street.h"
 
 namespace parafovea {
 
 Scene load_scene(const std::string& name_or_path) {
     if (name_or_path == "atrium") return make_atrium_scene();
     if (name_or_path == "primitives") return make_primitives_scene();
+    if (name_or_path == "street") return make_street_scene();
     const std::string ending = std::filesystem::path(name_or_path).extension().string();
     if (ending == ".gltf" || ending == ".glb") return load_gltf(name_or_path);
     throw std::runtime_error("there is no scene '" + name_or_path +
-                             "'; expected primitives, atrium, or a .gltf or .glb file");
+                             "'; expected primitives, atrium, street, or a .gltf or .glb file");
 }
 
 SceneSummary summarise(const Scene& scene) {
@@ -41,7 +43,8 @@ SceneSummary summarise(const Scene& scene) {
 }
 
 std::vector<SceneSummary> scene_catalog() {
-    return {summarise(load_scene("primitives")), summarise(load_scene("atrium"))};
+    return {summarise(load_scene("primitives")), summarise(load_scene("atrium")),
+            summarise(load_scene("street"))};
 }
 
 }  // namespace parafovea

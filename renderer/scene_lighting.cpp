@@ -72,6 +72,32 @@ glm::vec3 sky_radiance(const Sky& sky, glm::vec3 direction) {
     return glm::mix(above, sky.ground, std::clamp(-direction.y * 12, 0.0f, 1.0f));
 }
 
+LightGrid make_light_grid(const Scene& scene) {
+    constexpr float kCell_m = 0.75f;
+    constexpr int kMostCells = 128;
+    LightGrid grid;
+    const Bounds bounds = world_bounds(scene);
+    const glm::vec2 low{bounds.low.x, bounds.low.z}, extent = glm::vec2(bounds.high.x, bounds.high.z) - low;
+    grid.low = low;
+    grid.size = glm::clamp(glm::ivec2(glm::ceil(extent / kCell_m)), glm::ivec2(1), glm::ivec2(kMostCells));
+    grid.cell_m = glm::max(extent / glm::vec2(grid.size), glm::vec2(1e-6f));
+    for (int y = 0; y < grid.size.y; ++y) {
+        for (int x = 0; x < grid.size.x; ++x) {
+            const glm::vec2 cell_low = low + glm::vec2(x, y) * grid.cell_m,
+                            cell_high = cell_low + grid.cell_m;
+            std::uint64_t mask = 0;
+            for (std::size_t i = 0; i < std::min<std::size_t>(scene.lights.size(), shared::kMaxLights); ++i) {
+                const PunctualLight& light = scene.lights[i];
+                const glm::vec2 at{light.position.x, light.position.z};
+                const float distance = glm::distance(at, glm::clamp(at, cell_low, cell_high));
+                if (light.range_m <= 0 || distance < light.range_m) mask |= std::uint64_t{1} << i;
+            }
+            grid.lights.push_back(mask);
+        }
+    }
+    return grid;
+}
+
 shared::Lighting lighting_block(const Scene& scene) {
     shared::Lighting block{};
     const Sun sun = scene.sun.value_or(Sun{{0, 1, 0}, glm::vec3(0), false});

@@ -10,6 +10,7 @@ layout(set = 0, binding = kBindShadow) uniform sampler2DShadow shadow_map;
 layout(set = 0, binding = kBindBlended) uniform usampler2D blended;
 layout(set = 0, binding = kBindBlendedDepth) uniform sampler2D blended_depth;
 layout(set = 0, binding = kBindIrradiance) uniform sampler2DArray irradiance_volume;
+layout(set = 0, binding = kBindLightGrid) uniform usampler2D light_grid;
 
 layout(constant_id = kConstSunShadow) const uint kSunShadow = 1u;
 layout(constant_id = kConstBlend) const uint kBlend = 1u;
@@ -56,17 +57,33 @@ float sun_visible(vec3 point, vec3 normal) {
 }
 
 // KHR_lights_punctual: inverse square, a window at the range, a smooth cone.
+vec3 light_of(LightRecord lamp, Surface s, vec3 point, vec3 to_eye) {
+    vec3 to_lamp = lamp.position.xyz - point;
+    float squared = max(dot(to_lamp, to_lamp), 1e-4);
+    vec3 direction = to_lamp * inversesqrt(squared);
+    float ratio = squared * lamp.position.w;
+    float window = clamp(1.0 - ratio * ratio, 0.0, 1.0);
+    float cone = clamp(dot(-direction, lamp.direction.xyz) * lamp.cone.x + lamp.direction.w, 0.0, 1.0);
+    return reflected(s, to_eye, direction) * lamp.intensity.rgb * (window * cone * cone / squared);
+}
+
+// Only the lamps that reach the point's cell of the grid.
 vec3 lamp_light(Surface s, vec3 point, vec3 to_eye) {
+    if (kLights == 0u) return vec3(0.0);
+    ivec2 most = textureSize(light_grid, 0) - 1;
+    ivec2 cell = ivec2((point.xz - lighting.light_grid.xy) * lighting.light_grid.zw);
+    uvec2 lamps = texelFetch(light_grid, clamp(cell, ivec2(0), most), 0).xy;
     vec3 sum = vec3(0.0);
-    for (uint i = 0u; i < kLights; ++i) {
-        LightRecord lamp = lighting.lights[i];
-        vec3 to_lamp = lamp.position.xyz - point;
-        float squared = max(dot(to_lamp, to_lamp), 1e-4);
-        vec3 direction = to_lamp * inversesqrt(squared);
-        float ratio = squared * lamp.position.w;
-        float window = clamp(1.0 - ratio * ratio, 0.0, 1.0);
-        float cone = clamp(dot(-direction, lamp.direction.xyz) * lamp.cone.x + lamp.direction.w, 0.0, 1.0);
-        sum += reflected(s, to_eye, direction) * lamp.intensity.rgb * (window * cone * cone / squared);
+    while (lamps.x != 0u) {
+        int i = findLSB(lamps.x);
+        lamps.x &= lamps.x - 1u;
+        sum += light_of(lighting.lights[i], s, point, to_eye);
+    }
+    if (kLights <= 32u) return sum;
+    while (lamps.y != 0u) {
+        int i = findLSB(lamps.y);
+        lamps.y &= lamps.y - 1u;
+        sum += light_of(lighting.lights[i + 32], s, point, to_eye);
     }
     return sum;
 }

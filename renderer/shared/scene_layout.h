@@ -16,6 +16,7 @@ const uint kBindShadow = 4u;    // sampler2DShadow, the sun's map
 const uint kBindBlended = 5u;   // usampler2D, the nearest blended surface
 const uint kBindBlendedDepth = 6u;
 const uint kBindIrradiance = 7u;  // sampler2DArray, the irradiance volume: layer = colour * depth + z
+const uint kBindLightGrid = 8u;   // usampler2D, which lights reach a cell seen from above, a bit each
 
 // Specialization constants of the shading shaders. Ids below 64 are free for the methods.
 const uint kConstSunShadow = 64u;   // 1: the sun casts shadows
@@ -87,6 +88,7 @@ struct Lighting {
     vec4 ambient[9];     // irradiance / pi over the normal, spherical harmonics of degree 2
     vec4 volume_origin;  // the irradiance volume's lower corner; w: how far off a surface to look, metres
     vec4 volume_scale;   // 1 / extent; w: layers of one colour
+    vec4 light_grid;     // lower corner x, z; cells per metre along x, z
     LightRecord lights[64];
 };
 
