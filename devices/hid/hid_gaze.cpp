@@ -148,20 +148,19 @@ void HidGaze::run(std::stop_token stop) {
             }
             continue;
         }
-        // Room for an id before the body of devices that have none.
-        const bool has_ids = device_->layout.descriptor().has_report_ids;
-        std::vector<std::uint8_t> report(
-            device_->layout.descriptor().longest_report_bytes(HidReportKind::input) + 1);
-        std::uint8_t* const target = report.data() + (has_ids ? 0 : 1);
+        // A report is passed on with an id first; devices that have none get a zero.
+        const std::size_t id_bytes = device_->layout.descriptor().has_report_ids ? 0 : 1;
+        const std::size_t longest = device_->layout.descriptor().longest_report_bytes(HidReportKind::input);
+        std::vector<std::uint8_t> report(id_bytes + longest);
         const int size =
-            hid_read_timeout(device_->handle, target, report.size() - (has_ids ? 0 : 1), kReadTimeout_ms);
+            hid_read_timeout(device_->handle, report.data() + id_bytes, longest, kReadTimeout_ms);
         const HostTime arrival = clock_.now();
         if (size < 0) {
             connected_ = false;
             device_.reset();
             search_at = arrival + settings_.search_interval;
         } else if (size > 0) {
-            report.resize(static_cast<std::size_t>(size) + (has_ids ? 0 : 1));
+            report.resize(static_cast<std::size_t>(size) + id_bytes);
             handle(*device_, report, arrival);
         }
     }

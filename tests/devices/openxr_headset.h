@@ -44,16 +44,43 @@ inline std::string text_of(const std::filesystem::path& path) {
     return text.str();
 }
 
-// Everything up to a Vulkan device that the runtime made. The OpenXR validation layer writes to a file that
-// is read at the end; both layers must have said nothing.
-class Headset {
+// The simulated headset under OpenXR's validation layer, which writes to a file that is read at the end.
+class ValidationLayers {
   public:
-    explicit Headset(const std::string& settings) {
+    // For the next OpenXrInstance.
+    void use(const std::string& settings) const {
         setenv("XR_RUNTIME_JSON", SIMULATED_HEADSET_JSON, 1);
         setenv("XR_ENABLE_API_LAYERS", "XR_APILAYER_LUNARG_core_validation", 1);
         setenv("XR_CORE_VALIDATION_EXPORT_TYPE", "text", 1);
-        setenv("XR_CORE_VALIDATION_FILE_NAME", (folder_ / "openxr.txt").c_str(), 1);
-        setenv("PARAFOVEA_HEADSET", ("log=" + log_path().string() + ";" + settings).c_str(), 1);
+        setenv("XR_CORE_VALIDATION_FILE_NAME", openxr_messages().c_str(), 1);
+        const std::string all =
+            "log=" + frames().string() + ";control=" + control().string() + ";" + settings;
+        setenv("PARAFOVEA_HEADSET", all.c_str(), 1);
+    }
+
+    // Lets an event happen at the headset's next frame.
+    void happen(const std::string& event) const {
+        std::ofstream(control(), std::ios::app) << event << std::endl;
+    }
+
+    // Once the instance is gone.
+    void expect_silence() const { EXPECT_EQ(text_of(openxr_messages()), ""); }
+
+    // The runtime's own account: a line a frame after the header.
+    std::filesystem::path frames() const { return folder_ / "frames.csv"; }
+
+  private:
+    std::filesystem::path openxr_messages() const { return folder_ / "openxr.txt"; }
+    std::filesystem::path control() const { return folder_ / "control.txt"; }
+
+    TemporaryFolder folder_;
+};
+
+// Everything up to a Vulkan device that the runtime made. Both validation layers must have said nothing.
+class Headset {
+  public:
+    explicit Headset(const std::string& settings) {
+        layers_.use(settings);
         instance_.emplace();
         GpuOptions options;
         options.validation = true;
@@ -74,7 +101,7 @@ class Headset {
         EXPECT_THAT(gpu_->validation_messages(), testing::IsEmpty());
         gpu_.reset();
         instance_.reset();
-        EXPECT_EQ(text_of(folder_ / "openxr.txt"), "");
+        layers_.expect_silence();
     }
 
     const OpenXrInstance& instance() const { return *instance_; }
@@ -82,12 +109,10 @@ class Headset {
     OpenXrVulkan vulkan() const {
         return {gpu_->instance(), gpu_->physical_device(), gpu_->device(), gpu_->queue_family()};
     }
-
-    // The runtime's own account: a line a frame after the header.
-    std::filesystem::path log_path() const { return folder_ / "frames.csv"; }
+    std::filesystem::path log_path() const { return layers_.frames(); }
 
   private:
-    TemporaryFolder folder_;
+    ValidationLayers layers_;
     std::optional<OpenXrInstance> instance_;
     std::unique_ptr<Gpu> gpu_;
 };
