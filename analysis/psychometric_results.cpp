@@ -68,7 +68,7 @@ PsychometricResults psychometric_results(const Tally& tally, double criterion, s
         options.model.sigmoid = jobs[i].sigmoid;
         options.criterion_share = 1.0 - criterion;
         options.seed = seed + i;
-        options.draws = jobs[i].participant ? 3000 : 10'000;
+        options.draws = jobs[i].participant ? 2000 : 10'000;
         jobs[i].fit = fit_psychometric(jobs[i].levels, options);
     });
     for (Job& job : jobs) {
