@@ -3,6 +3,7 @@
 
 #include <fcntl.h>
 #include <linux/hidraw.h>
+#include <linux/input.h>
 #include <linux/usbdevice_fs.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
@@ -136,6 +137,79 @@ gboolean FakeHidDevice::on_ioctl(UMockdevIoctlBase*, UMockdevIoctlClient* client
         return TRUE;
     }
     umockdev_ioctl_client_complete(client, -1, EPIPE);
+    return TRUE;
+}
+
+FakeInputDevice::~FakeInputDevice() {
+    if (plugged_) unplug();
+}
+
+void FakeInputDevice::plug() {
+    const std::string name = "event" + std::to_string(times_plugged_++);
+    node_ = "/dev/input/" + name;
+    path_ = "/devices/fake/input/" + name;
+    add(testbed_, "P: " + path_ + "\nN: input/" + name + "\nE: SUBSYSTEM=input\nE: DEVNAME=" + node_ + "\n");
+    handler_ = umockdev_ioctl_base_new();
+    g_signal_connect(handler_, "handle-ioctl", G_CALLBACK(on_ioctl), this);
+    attach(testbed_, node_.c_str(), handler_);
+    plugged_ = true;
+}
+
+void FakeInputDevice::unplug() {
+    const int fd = umockdev_testbed_get_dev_fd(testbed_, node_.c_str());
+    umockdev_testbed_remove_device(testbed_, ("/sys" + path_).c_str());
+    remove_node(testbed_, node_);
+    const int nothing = ::open("/dev/null", O_RDWR | O_CLOEXEC);
+    ::dup2(nothing, fd);
+    ::close(nothing);
+    ::usleep(200'000);
+    umockdev_testbed_detach_ioctl(testbed_, node_.c_str(), nullptr);
+    g_object_unref(handler_);
+    plugged_ = false;
+}
+
+void FakeInputDevice::send(std::uint16_t type, std::uint16_t code, int value, std::int64_t stamp_ns) {
+    input_event events[2] = {};
+    for (input_event& event : events) {
+        event.input_event_sec = stamp_ns / 1'000'000'000;
+        event.input_event_usec = stamp_ns / 1000 % 1'000'000;
+    }
+    events[0].type = type;
+    events[0].code = code;
+    events[0].value = value;
+    const int fd = umockdev_testbed_get_dev_fd(testbed_, node_.c_str());
+    if (::write(fd, events, sizeof events) != sizeof events)
+        throw std::runtime_error("the fake pad cannot send");
+}
+
+gboolean FakeInputDevice::on_ioctl(UMockdevIoctlBase*, UMockdevIoctlClient* client, gpointer self) {
+    auto* device = static_cast<FakeInputDevice*>(self);
+    const gulong request = umockdev_ioctl_client_get_request(client);
+    const std::size_t size = _IOC_SIZE(request);
+    if (_IOC_TYPE(request) != 'E') return FALSE;
+    UMockdevIoctlData* const data = argument(client, size);
+    const auto set_bit = [&](int bit) {
+        const auto byte = static_cast<std::size_t>(bit / 8);
+        if (byte < size) data->data[byte] = static_cast<guint8>(data->data[byte] | 1 << bit % 8);
+    };
+    if (request == EVIOCSCLOCKID) {
+        int id = 0;
+        std::memcpy(&id, data->data, sizeof id);
+        device->clock_asked_ = id;
+    } else if (request == EVIOCGID) {
+        const input_id id{BUS_USB, 0x045e, 0x028e, 0x0114};
+        std::memcpy(data->data, &id, sizeof id);
+    } else if (_IOC_NR(request) == _IOC_NR(EVIOCGNAME(0))) {
+        std::memcpy(data->data, "Fake X-Box 360 pad", 19);
+    } else if (_IOC_NR(request) == _IOC_NR(EVIOCGBIT(EV_KEY, 0))) {
+        for (const int code : {BTN_A, BTN_B, BTN_TL, BTN_TR}) set_bit(code);
+    } else if (_IOC_NR(request) == _IOC_NR(EVIOCGKEY(0))) {
+        for (const int code : device->held) set_bit(code);
+    } else if (_IOC_NR(request) != _IOC_NR(EVIOCGABS(ABS_HAT0X)) &&
+               _IOC_NR(request) != _IOC_NR(EVIOCGABS(ABS_HAT0Y))) {
+        return FALSE;
+    }
+    umockdev_ioctl_client_complete(client, static_cast<glong>(size), 0);
     return TRUE;
 }
 

@@ -55,6 +55,33 @@ class FakeHidDevice {
     std::vector<Bytes> set_reports_;
 };
 
+// A pad under /dev/input with A, B, shoulder buttons and a hat, as the kernel's "xpad" makes it.
+class FakeInputDevice {
+  public:
+    explicit FakeInputDevice(UMockdevTestbed* testbed) : testbed_(testbed) {}
+    ~FakeInputDevice();
+
+    void plug();
+    void unplug();
+    // An event stamped `stamp_ns` on CLOCK_MONOTONIC, and the SYN_REPORT that ends its packet.
+    void send(std::uint16_t type, std::uint16_t code, int value, std::int64_t stamp_ns);
+
+    // The clock that the program asked stamps of; -1 if it did not.
+    int clock_asked() const { return clock_asked_; }
+    // Keys held down, as EVIOCGKEY tells; set before plug().
+    std::vector<int> held;
+
+  private:
+    static gboolean on_ioctl(UMockdevIoctlBase*, UMockdevIoctlClient* client, gpointer self);
+
+    UMockdevTestbed* testbed_;
+    std::string path_, node_;
+    int times_plugged_ = 0;
+    UMockdevIoctlBase* handler_ = nullptr;
+    bool plugged_ = false;
+    std::atomic<int> clock_asked_ = -1;
+};
+
 // A USB device with one vendor interface and two interrupt endpoints, driven by the kernel's "xpad" until it
 // is claimed.
 class FakeUsbPad {

@@ -9,6 +9,7 @@
 
 #include "devices/hid/hid_gaze.h"
 #include "devices/xbox/bluetooth_pad.h"
+#include "devices/xbox/evdev_controller.h"
 #include "devices/xbox/usb_pad.h"
 #include "tests/devices/eye_tracker_descriptor.h"
 #include "tests/devices/fake_hardware.h"
@@ -113,6 +114,7 @@ TEST_F(FakeTracker, UnpluggedAndPluggedInAgainGoesOn) {
 TEST_F(FakeHardware, WithoutDevicesEverySourceSaysSo) {
     EXPECT_THROW(HidGaze{clock_}, std::runtime_error);
     EXPECT_THROW(BluetoothPad{clock_}, std::runtime_error);
+    EXPECT_THROW(EvdevController{clock_}, std::runtime_error);
     EXPECT_THROW(UsbPad{clock_}, std::runtime_error);
 }
 
@@ -193,6 +195,38 @@ TEST_F(FakeHardware, AGipPadIsStartedAcknowledgedAndRead) {
     ASSERT_TRUE(eventually([&] { return pad.drain(events), events.size() >= 2; }));
     EXPECT_THAT(kinds(events), ElementsAre(Pair(ControllerEventKind::press, Button::a),
                                            Pair(ControllerEventKind::press, Button::left_shoulder)));
+}
+
+TEST_F(FakeHardware, APadOfTheKernelsDriverIsReadWithItsOwnStampsPulledAndReadOn) {
+    FakeInputDevice fake(testbed_.get());
+    fake.held = {BTN_A};  // down from before: nobody's answer
+    fake.plug();
+    ASSERT_EQ(list_evdev_pads().size(), 1u);
+    EXPECT_EQ(list_evdev_pads()[0].product, 0x028e);
+    EvdevController pad(clock_, Duration::from_ms(20));
+    EXPECT_EQ(fake.clock_asked(), CLOCK_MONOTONIC);
+    EXPECT_THAT(pad.description(), testing::HasSubstr("Fake X-Box 360 pad"));
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    fake.send(EV_KEY, BTN_TL, 1, 77'123'456'000);
+    fake.send(EV_KEY, BTN_TL, 0, 77'223'456'000);
+    fake.send(EV_ABS, ABS_HAT0X, 1, 77'300'000'000);
+    std::vector<ControllerEvent> events;
+    ASSERT_TRUE(eventually([&] { return pad.drain(events), events.size() == 3; }));
+    EXPECT_EQ(events[0].time.ns, 77'123'456'000);
+    EXPECT_EQ(events[0].time_error, Duration::from_ms(4));
+    fake.unplug();
+    ASSERT_TRUE(eventually([&] { return pad.drain(events), events.size() == 4; }));
+    fake.held.clear();
+    fake.plug();
+    ASSERT_TRUE(eventually([&] { return pad.drain(events), events.size() == 5; }));
+    fake.send(EV_KEY, BTN_TR, 1, 88'000'000'000);
+    ASSERT_TRUE(eventually([&] { return pad.drain(events), events.size() == 6; }));
+    EXPECT_THAT(kinds(events), ElementsAre(Pair(ControllerEventKind::press, Button::left_shoulder),
+                                           Pair(ControllerEventKind::release, Button::left_shoulder),
+                                           Pair(ControllerEventKind::press, Button::right),
+                                           Pair(ControllerEventKind::disconnected, testing::_),
+                                           Pair(ControllerEventKind::connected, testing::_),
+                                           Pair(ControllerEventKind::press, Button::right_shoulder)));
 }
 
 TEST_F(FakeHardware, ABluetoothPadIsReadPulledAndReadOn) {
