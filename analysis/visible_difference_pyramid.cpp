@@ -114,7 +114,9 @@ void mean_row(const float* a, const float* b, int width, float* mean) {
     for (int x = 0; x < width; ++x) mean[x] = 0.5f * (a[x] + b[x]);
 }
 
-void check(RgbaView picture, const DisplayModel& d) {
+}  // namespace
+
+void check_picture(RgbaView picture, const DisplayModel& d) {
     if (!(d.horizontal_fov_deg > 0 && d.horizontal_fov_deg < 180) || !(d.peak_cd_m2 > 0) ||
         !std::isfinite(d.peak_cd_m2) || !(d.contrast_ratio > 1) || !(d.ambient_reflection_cd_m2 >= 0) ||
         !std::isfinite(d.ambient_reflection_cd_m2))
@@ -130,8 +132,6 @@ void check(RgbaView picture, const DisplayModel& d) {
         throw std::runtime_error("visible difference: the picture is empty or shorter than its size says");
 }
 
-}  // namespace
-
 double DisplayModel::distance_px() const {
     return 0.5 * width_px / std::tan(horizontal_fov_deg * std::numbers::pi / 360);
 }
@@ -141,7 +141,7 @@ double DisplayModel::pixels_per_degree() const {
 }
 
 Level luminance_plane(RgbaView picture, const DisplayModel& display) {
-    check(picture, display);
+    check_picture(picture, display);
 
     // Tabulate each channel's share of luminance.
     const double black = display.peak_cd_m2 / display.contrast_ratio;

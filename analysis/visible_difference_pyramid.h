@@ -5,6 +5,9 @@
 
 namespace parafovea {
 
+// Throws what luminance_pyramid throws of a picture and its display.
+void check_picture(RgbaView picture, const DisplayModel& display);
+
 // Luminance of every pixel in cd/m2. Throws what luminance_pyramid throws.
 LuminancePyramid::Level luminance_plane(RgbaView picture, const DisplayModel& display);
 
