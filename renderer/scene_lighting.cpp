@@ -59,7 +59,7 @@ shared::LightRecord light_record(const PunctualLight& light) {
     const float outer = std::cos(light.outer_cone_rad);
     const float scale = 1 / std::max(std::cos(light.inner_cone_rad) - outer, 1e-3f);
     record.direction = packed(light.direction, spot ? -outer * scale : 1);
-    record.cone = {spot ? scale : 0, 0, 0, 0};
+    record.cone = {spot ? scale : 0, -1, 0, 0};
     return record;
 }
 

@@ -19,22 +19,6 @@ namespace {
 const ResourceUse kUseUniform{VK_PIPELINE_STAGE_2_ALL_GRAPHICS_BIT | VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
                               VK_ACCESS_2_UNIFORM_READ_BIT, VK_IMAGE_LAYOUT_UNDEFINED};
 
-// False only if the box lies wholly outside one of the frustum's planes.
-bool may_be_seen(const Bounds& box, const glm::mat4& clip_from_world) {
-    int left = 0, right = 0, above = 0, below = 0, behind = 0;
-    for (int corner = 0; corner < 8; ++corner) {
-        const glm::vec4 p = clip_from_world * glm::vec4(corner & 1 ? box.high.x : box.low.x,
-                                                        corner & 2 ? box.high.y : box.low.y,
-                                                        corner & 4 ? box.high.z : box.low.z, 1);
-        left += p.x < -p.w;
-        right += p.x > p.w;
-        above += p.y < -p.w;
-        below += p.y > p.w;
-        behind += p.w < p.z;
-    }
-    return left < 8 && right < 8 && above < 8 && below < 8 && behind < 8;
-}
-
 // The exposure that shows a grey surface near the eye as grey, as a camera left to itself would choose.
 float exposure_at(const IrradianceVolume& volume, glm::vec3 eye) {
     constexpr float kReach_m = 3, kKey = 0.45f;
@@ -70,6 +54,7 @@ struct ScenePasses::Parts {
     std::uint32_t light_count = 0;
     std::optional<SceneResources> resources;
     std::optional<SunShadow> shadow;
+    std::optional<LampShadows> lamp_shadows;
     bool shadow_drawn = false;
     SizePx size;
     glm::mat4 clip_from_world{1};
@@ -78,7 +63,7 @@ struct ScenePasses::Parts {
     GpuBuffer camera_buffer;
     GpuBuffer lighting_buffer;
     GpuImage gbuffer, depth, blended, blended_depth;
-    GpuImage unused_words, unused_depth;  // stand at the bindings of what was left out
+    GpuImage unused_words, unused_depth, unused_layers;  // stand at the bindings of what was left out
     GpuImage irradiance, light_grid;
     OwnedSampler nearest, shadow_sampler, linear;
     DescriptorSet set;
@@ -114,6 +99,14 @@ void ScenePasses::Parts::build_meshes(const Scene& scene) {
         std::memcpy(lighting.shadow_from_world.columns, &shadow->map_from_world(), sizeof(glm::mat4));
         lighting.sun_irradiance.w = shadow->texel_m();
     }
+    lamp_shadows.emplace(gpu, scene.lights);
+    if (lamp_shadows->clip_from_world().empty()) lamp_shadows.reset();
+    if (lamp_shadows) {
+        for (std::size_t i = 0; i < scene.lights.size(); ++i)
+            lighting.lights[i].cone.y = static_cast<float>(lamp_shadows->layers()[i]);
+        std::memcpy(lighting.lamp_from_world, lamp_shadows->clip_from_world().data(),
+                    lamp_shadows->clip_from_world().size() * sizeof(glm::mat4));
+    }
     nearest = make_sampler(gpu, {.filter = VK_FILTER_NEAREST,
                                  .mipmap = VK_SAMPLER_MIPMAP_MODE_NEAREST,
                                  .address_u = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
@@ -132,7 +125,12 @@ void ScenePasses::Parts::build_meshes(const Scene& scene) {
     unused_depth =
         GpuImage(gpu, {.format = VK_FORMAT_D16_UNORM,
                        .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT});
+    unused_layers =
+        GpuImage(gpu, {.format = VK_FORMAT_D16_UNORM,
+                       .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT,
+                       .view_type = VK_IMAGE_VIEW_TYPE_2D_ARRAY});
     gpu.submit_and_wait([&](VkCommandBuffer commands) {
+        image_barrier(commands, unused_layers, kUseNone, kUseSampled);
         image_barrier(commands, unused_words, kUseNone, kUseSampled);
         image_barrier(commands, unused_depth, kUseNone, kUseSampled);
     });
@@ -146,7 +144,11 @@ void ScenePasses::Parts::build_meshes(const Scene& scene) {
                               {shared::kBindBlended, texture},
                               {shared::kBindBlendedDepth, texture},
                               {shared::kBindIrradiance, texture},
-                              {shared::kBindLightGrid, texture}});
+                              {shared::kBindLightGrid, texture},
+                              {shared::kBindLampShadow, texture}});
+    set.set_sampled_image(shared::kBindLampShadow,
+                          lamp_shadows ? lamp_shadows->maps().view() : unused_layers.view(),
+                          shadow_sampler.get());
     set.set_sampled_image(shared::kBindLightGrid, light_grid.view(), nearest.get());
     set.set_sampled_image(shared::kBindIrradiance, irradiance.view(), linear.get());
     set.set_sampled_image(shared::kBindShadow, shadow ? shadow->map().view() : unused_depth.view(),
@@ -218,6 +220,11 @@ void ScenePasses::Parts::describe(const Scene& scene) {
         note(features.vertex_colors, "vertex colours", "meshes carry them", "all are white");
         note(build_irradiance, "irradiance volume", "the camera is inside the scene",
              "the camera looks at the scene from outside: the open sky lights it");
+        note(lamp_shadows.has_value(), "lamp shadow maps",
+             lamp_shadows ? std::to_string(lamp_shadows->clip_from_world().size()) +
+                                " spot lamps cast shadows; drawn once"
+                          : "",
+             "no lamp casts a shadow");
         note(light_count > 0, "lamps",
              std::to_string(light_count) + ", of which a grid lists those that reach", "the scene has none");
     }
@@ -357,9 +364,10 @@ void ScenePasses::record(VkCommandBuffer commands, PassTimer* timer) {
     if (p.ray_marched) return;
     memory_barrier(commands, kUseSampled, kUseDepthTarget);
     memory_barrier(commands, kUseSampled, kUseColorTarget);
-    if (p.build_shadow && !p.shadow_drawn) {
+    if ((p.shadow || p.lamp_shadows) && !p.shadow_drawn) {
         if (timer) timer->start(commands, "shadow");
-        p.shadow->record(commands, p.gpu, *p.resources);
+        if (p.shadow) p.shadow->record(commands, p.gpu, *p.resources);
+        if (p.lamp_shadows) p.lamp_shadows->record(commands, p.gpu, *p.resources);
         if (timer) timer->stop(commands);
         p.shadow_drawn = true;
     }
@@ -386,6 +394,7 @@ std::vector<ShaderConstant> ScenePasses::shading_constants() const {
         constants.push_back({shared::kConstBlend, p.build_blended ? 1u : 0u});
         constants.push_back({shared::kConstEmission, p.build_emission ? 1u : 0u});
         constants.push_back({shared::kConstLights, p.light_count});
+        constants.push_back({shared::kConstLampShadow, p.lamp_shadows ? 1u : 0u});
         constants.push_back({shared::kConstIrradiance, p.build_irradiance ? 1u : 0u});
     }
     return constants;

@@ -2,7 +2,9 @@
 #include "renderer/scene_shadow.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
+#include <glm/ext/matrix_clip_space.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 
 namespace parafovea {
@@ -12,12 +14,58 @@ namespace {
 constexpr std::uint32_t kSmallMap = 2048;
 constexpr std::uint32_t kLargeMap = 4096;
 constexpr float kSmallMapReach_m = 24;
+// A lamp's own glass and cage lie nearer than this.
+constexpr float kLampNear_m = 0.3f;
+constexpr std::uint32_t kLampMap = 1024;
+constexpr float kWidestHalfAngle_rad =
+    1.31f;  // beyond 75 degrees a flat map has no texels left for the middle
 
 shared::vec4 packed(glm::vec3 v, float w) {
     return {v.x, v.y, v.z, w};
 }
 
+// Depth of every opaque instance that a light may see.
+void draw_casters(VkCommandBuffer commands, Gpu& gpu, SceneResources& resources, VkImageView target_view,
+                  VkExtent2D extent, const glm::mat4& clip_from_world) {
+    const DepthTarget target{target_view, true, 1.0f, false};
+    begin_rendering(commands, extent, {}, &target);
+    resources.bind_geometry(commands);
+    VkPipeline bound = VK_NULL_HANDLE;
+    for (const DrawInstance& instance : resources.instances()) {
+        const DrawMaterial& material = resources.material_of(instance);
+        if (material.blend) continue;  // light passes through glass
+        if (instance.bounds.empty() || !may_be_seen(instance.bounds, clip_from_world)) continue;
+        const VkPipeline pipeline = resources.depth_pipeline(gpu, material.mask, kShadowFormat);
+        if (pipeline != bound) vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);
+        bound = pipeline;
+        if (material.mask) {
+            const VkDescriptorSet set = material.set.get();
+            vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, resources.layout(), 0, 1, &set,
+                                    0, nullptr);
+        }
+        push_instance(commands, resources, instance, clip_from_world);
+        const DrawMesh& mesh = resources.meshes()[instance.mesh];
+        vkCmdDrawIndexed(commands, mesh.index_count, 1, mesh.first_index, mesh.first_vertex, 0);
+    }
+    vkCmdEndRendering(commands);
+}
+
 }  // namespace
+
+bool may_be_seen(const Bounds& box, const glm::mat4& clip_from_world) {
+    int left = 0, right = 0, above = 0, below = 0, behind = 0;
+    for (int corner = 0; corner < 8; ++corner) {
+        const glm::vec4 p = clip_from_world * glm::vec4(corner & 1 ? box.high.x : box.low.x,
+                                                        corner & 2 ? box.high.y : box.low.y,
+                                                        corner & 4 ? box.high.z : box.low.z, 1);
+        left += p.x < -p.w;
+        right += p.x > p.w;
+        above += p.y < -p.w;
+        below += p.y > p.w;
+        behind += p.w <= 0;
+    }
+    return left < 8 && right < 8 && above < 8 && below < 8 && behind < 8;
+}
 
 void push_instance(VkCommandBuffer commands, const SceneResources& resources, const DrawInstance& instance,
                    const glm::mat4& clip_from_world) {
@@ -65,27 +113,38 @@ SunShadow::SunShadow(Gpu& gpu, const SceneResources& resources, glm::vec3 to_sun
 
 void SunShadow::record(VkCommandBuffer commands, Gpu& gpu, SceneResources& resources) const {
     image_barrier(commands, map_, kUseNone, kUseDepthTarget);
-    const DepthTarget target{map_.view(), true, 1.0f, false};
-    begin_rendering(commands, map_.extent(), {}, &target);
-    resources.bind_geometry(commands);
-    VkPipeline bound = VK_NULL_HANDLE;
-    for (const DrawInstance& instance : resources.instances()) {
-        const DrawMaterial& material = resources.material_of(instance);
-        if (material.blend) continue;  // light passes through glass
-        const VkPipeline pipeline = resources.depth_pipeline(gpu, material.mask, kShadowFormat);
-        if (pipeline != bound) vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);
-        bound = pipeline;
-        if (material.mask) {
-            const VkDescriptorSet set = material.set.get();
-            vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, resources.layout(), 0, 1, &set,
-                                    0, nullptr);
-        }
-        push_instance(commands, resources, instance, clip_from_world_);
-        const DrawMesh& mesh = resources.meshes()[instance.mesh];
-        vkCmdDrawIndexed(commands, mesh.index_count, 1, mesh.first_index, mesh.first_vertex, 0);
-    }
-    vkCmdEndRendering(commands);
+    draw_casters(commands, gpu, resources, map_.view(), map_.extent(), clip_from_world_);
     image_barrier(commands, map_, kUseDepthTarget, kUseSampled);
+}
+
+LampShadows::LampShadows(Gpu& gpu, const std::vector<PunctualLight>& lights) {
+    for (const PunctualLight& light : lights) {
+        const bool casts = light.casts_shadow && light.kind == LightKind::spot &&
+                           light.range_m > kLampNear_m && clip_from_world_.size() < shared::kMaxLampShadows;
+        layers_.push_back(casts ? static_cast<int>(clip_from_world_.size()) : -1);
+        if (!casts) continue;
+        const glm::vec3 up = std::abs(light.direction.y) > 0.99f ? glm::vec3(1, 0, 0) : glm::vec3(0, 1, 0);
+        const glm::mat4 lamp_from_world = glm::lookAt(light.position, light.position + light.direction, up);
+        const float half_angle = std::min(light.outer_cone_rad, kWidestHalfAngle_rad);
+        clip_from_world_.push_back(glm::perspectiveRH_ZO(2 * half_angle, 1.0f, kLampNear_m, light.range_m) *
+                                   lamp_from_world);
+    }
+    if (clip_from_world_.empty()) return;
+    maps_ = GpuImage(gpu, {.format = kShadowFormat,
+                           .width = kLampMap,
+                           .height = kLampMap,
+                           .usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT,
+                           .layers = static_cast<std::uint32_t>(clip_from_world_.size()),
+                           .view_type = VK_IMAGE_VIEW_TYPE_2D_ARRAY});
+    for (std::uint32_t layer = 0; layer < maps_.layers(); ++layer)
+        views_.push_back(maps_.make_view(gpu, layer));
+}
+
+void LampShadows::record(VkCommandBuffer commands, Gpu& gpu, SceneResources& resources) const {
+    image_barrier(commands, maps_, kUseNone, kUseDepthTarget);
+    for (std::size_t layer = 0; layer < views_.size(); ++layer)
+        draw_casters(commands, gpu, resources, views_[layer].get(), maps_.extent(), clip_from_world_[layer]);
+    image_barrier(commands, maps_, kUseDepthTarget, kUseSampled);
 }
 
 }  // namespace parafovea

@@ -1,4 +1,5 @@
-// The sun's shadow map of a whole scene, drawn once and kept while the scene stands still.
+// Shadow maps, drawn once and kept while the scene stands still: the sun's of the whole scene, and the
+// lamps'.
 #pragma once
 
 #include "renderer/scene_resources.h"
@@ -24,6 +25,29 @@ class SunShadow {
     glm::mat4 map_from_world_{1};
     float texel_m_ = 0;
 };
+
+// Shadow maps of the lamps that cast shadows, as far as there are layers: spot lamps, seen along their cones,
+// drawn once.
+class LampShadows {
+  public:
+    LampShadows(Gpu& gpu, const std::vector<PunctualLight>& lights);
+
+    const GpuImage& maps() const { return maps_; }
+    // The layer of each light, -1 for none; and each layer's clip space from the world.
+    const std::vector<int>& layers() const { return layers_; }
+    const std::vector<glm::mat4>& clip_from_world() const { return clip_from_world_; }
+
+    void record(VkCommandBuffer commands, Gpu& gpu, SceneResources& resources) const;
+
+  private:
+    std::vector<int> layers_;
+    std::vector<glm::mat4> clip_from_world_;
+    GpuImage maps_;
+    std::vector<OwnedImageView> views_;
+};
+
+// False only if the box lies wholly outside one of the frustum's planes, the near one left aside.
+bool may_be_seen(const Bounds& box, const glm::mat4& clip_from_world);
 
 // Pushes what the geometry shaders need of an instance.
 void push_instance(VkCommandBuffer commands, const SceneResources& resources, const DrawInstance& instance,

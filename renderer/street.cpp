@@ -195,7 +195,7 @@ class Builder {
     void add_shop(int key, int bay, const glm::mat4& where) {
         // A room behind the pane: shelves at the back, a lit ceiling, boards in front.
         Triangles room, shelves, boards, pane, sign;
-        const float w = kBay / 2 - 0.28f, h = kGround - 0.5f;
+        const float w = kBay / 2 - 0.30f, h = kGround - 0.5f;
         add_panel(room, {-w, kKerb, 0}, {2 * w, 0, 0}, {0, 0, -2.4f}, 2, 2);
         add_panel(room, {-w, h, -2.4f}, {2 * w, 0, 0}, {0, 0, 2.4f}, 2, 2);
         add_panel(shelves, {-w, kKerb, 0}, {0, 0, -2.4f}, {0, h - kKerb, 0}, 2, 2);
@@ -263,7 +263,8 @@ class Builder {
                 put(lamp_, post);
                 put(panes_, post);
                 put(bulb_, post * at(0, 3.62f, 0));
-                add_lamp(post * glm::vec4(0, 3.62f, 0, 1), {0, -1, 0}, glm::vec3(15, 9.8f, 4.6f), 10, 1.5f);
+                add_lamp(post * glm::vec4(0, 3.62f, 0, 1), {0, -1, 0}, glm::vec3(15, 10.8f, 6.2f), 10, 1.5f);
+                scene_.lights.back().casts_shadow = true;
                 if ((i + (side > 0 ? 1 : 0)) % 2 == 0 && i > 0) {
                     const glm::mat4 tree = at(side * (kRoad + 0.5f), kKerb, z - 2.6f, static_cast<float>(i));
                     put(trunk_, tree);

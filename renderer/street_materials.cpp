@@ -134,7 +134,7 @@ Paint goods(float u, float v) {
     Paint p;
     p.color = shelf > 0.94f ? glm::vec3(0.22f, 0.12f, 0.06f)
               : label       ? glm::vec3(0.75f, 0.70f, 0.58f)
-              : there       ? hue * hue * 0.7f
+              : there       ? glm::mix(hue * hue, glm::vec3(0.25f, 0.16f, 0.08f), 0.55f) * 0.7f
                             : glm::vec3(0.10f, 0.06f, 0.04f);
     p.roughness = there ? 0.25f : 0.8f;
     p.height_m = there ? 0.03f * std::cos(2 * across) : 0;

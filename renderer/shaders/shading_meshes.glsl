@@ -11,11 +11,13 @@ layout(set = 0, binding = kBindBlended) uniform usampler2D blended;
 layout(set = 0, binding = kBindBlendedDepth) uniform sampler2D blended_depth;
 layout(set = 0, binding = kBindIrradiance) uniform sampler2DArray irradiance_volume;
 layout(set = 0, binding = kBindLightGrid) uniform usampler2D light_grid;
+layout(set = 0, binding = kBindLampShadow) uniform sampler2DArrayShadow lamp_shadows;
 
 layout(constant_id = kConstSunShadow) const uint kSunShadow = 1u;
 layout(constant_id = kConstBlend) const uint kBlend = 1u;
 layout(constant_id = kConstEmission) const uint kEmission = 1u;
 layout(constant_id = kConstLights) const uint kLights = 0u;
+layout(constant_id = kConstLampShadow) const uint kLampShadow = 0u;
 layout(constant_id = kConstIrradiance) const uint kIrradiance = 0u;
 layout(constant_id = kConstFootprint) const uint kUseFootprint = 1u;
 
@@ -56,6 +58,22 @@ float sun_visible(vec3 point, vec3 normal) {
     return 0.25 * sum;
 }
 
+// Share of a lamp that reaches a point; all of it outside the lamp's map. The derivatives are given because
+// implicit ones would be those of warped space.
+float lamp_visible(int layer, vec3 point, vec3 normal, float distance) {
+    vec3 lifted = point + normal * (0.012 * distance + 0.01);
+    vec4 clip = lighting.lamp_from_world[layer] * vec4(lifted, 1.0);
+    vec3 p = clip.xyz / max(clip.w, 1e-4);
+    if (clip.w <= 0.0 || max(abs(p.x), abs(p.y)) > 1.0) return 1.0;
+    vec2 uv = p.xy * 0.5 + 0.5;
+    vec2 texel = 0.6 / vec2(textureSize(lamp_shadows, 0).xy);
+    vec4 a = vec4(uv + vec2(-texel.x, 0.4 * texel.y), float(layer), p.z);
+    vec4 b = vec4(uv + vec2(0.4 * texel.x, texel.y), float(layer), p.z);
+    vec4 c = vec4(uv + vec2(0.6 * texel.x, -texel.y), float(layer), p.z);
+    return (textureGrad(lamp_shadows, a, vec2(0.0), vec2(0.0)) + textureGrad(lamp_shadows, b, vec2(0.0), vec2(0.0)) +
+            textureGrad(lamp_shadows, c, vec2(0.0), vec2(0.0))) * (1.0 / 3.0);
+}
+
 // KHR_lights_punctual: inverse square, a window at the range, a smooth cone.
 vec3 light_of(LightRecord lamp, Surface s, vec3 point, vec3 to_eye) {
     vec3 to_lamp = lamp.position.xyz - point;
@@ -64,7 +82,9 @@ vec3 light_of(LightRecord lamp, Surface s, vec3 point, vec3 to_eye) {
     float ratio = squared * lamp.position.w;
     float window = clamp(1.0 - ratio * ratio, 0.0, 1.0);
     float cone = clamp(dot(-direction, lamp.direction.xyz) * lamp.cone.x + lamp.direction.w, 0.0, 1.0);
-    return reflected(s, to_eye, direction) * lamp.intensity.rgb * (window * cone * cone / squared);
+    float share = window * cone * cone / squared;
+    if (kLampShadow == 1u && lamp.cone.y >= 0.0) share *= lamp_visible(int(lamp.cone.y), point, s.normal, sqrt(squared));
+    return reflected(s, to_eye, direction) * lamp.intensity.rgb * share;
 }
 
 // Only the lamps that reach the point's cell of the grid.

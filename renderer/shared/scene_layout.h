@@ -17,6 +17,7 @@ const uint kBindBlended = 5u;   // usampler2D, the nearest blended surface
 const uint kBindBlendedDepth = 6u;
 const uint kBindIrradiance = 7u;  // sampler2DArray, the irradiance volume: layer = colour * depth + z
 const uint kBindLightGrid = 8u;   // usampler2D, which lights reach a cell seen from above, a bit each
+const uint kBindLampShadow = 9u;  // sampler2DArrayShadow, a layer for each lamp that casts shadows
 
 // Specialization constants of the shading shaders. Ids below 64 are free for the methods.
 const uint kConstSunShadow = 64u;   // 1: the sun casts shadows
@@ -24,9 +25,9 @@ const uint kConstBlend = 65u;       // 1: there are blended surfaces
 const uint kConstEmission = 66u;    // 1: the G-buffer's third and fourth words are there
 const uint kConstLights = 67u;      // number of punctual lights
 const uint kConstIrradiance = 68u;  // 1: ambient light varies over the scene
-const uint kConstFootprint =
-    69u;                         // 1: textures and highlights are filtered over spacing_px, 0: over one pixel
-const uint kConstSamples = 70u;  // ray-marched: samples of one shade_sample()
+const uint kConstFootprint = 69u;   // 1: filter over spacing_px, 0: over one pixel
+const uint kConstSamples = 70u;     // ray-marched: samples of one shade_sample()
+const uint kConstLampShadow = 71u;  // 1: some lamps cast shadows
 
 // Material of a G-buffer or depth pipeline: set 1.
 const uint kBindMaterial = 0u;  // uniform, MaterialBlock
@@ -68,13 +69,14 @@ struct MaterialBlock {
 };
 
 const uint kMaxLights = 64u;
+const uint kMaxLampShadows = 16u;
 
 // A point or spot light.
 struct LightRecord {
     vec4 position;   // w: 1 / range^2, 0 when unlimited
     vec4 intensity;  // w: 1 for a spot
     vec4 direction;  // w: cosine offset of the cone, with spot falloff = (cos * scale + offset)^2
-    vec4 cone;       // x: scale
+    vec4 cone;       // x: scale; y: layer of its shadow map, -1 for none
 };
 
 // Uniform block; std140.
@@ -90,6 +92,7 @@ struct Lighting {
     vec4 volume_scale;   // 1 / extent; w: layers of one colour
     vec4 light_grid;     // lower corner x, z; cells per metre along x, z
     LightRecord lights[64];
+    mat4 lamp_from_world[16];  // of each layer of the lamps' shadow maps: clip space
 };
 
 SHARED_END
