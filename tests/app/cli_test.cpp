@@ -1,9 +1,12 @@
 // The program from outside: exit codes, one clear line for each thing that cannot go on, and files that
 // others read.
 #include <gtest/gtest.h>
-#include <sys/stat.h>
+#include <signal.h>
+#include <sqlite3.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <cstdlib>
@@ -17,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Run {
+struct ProgramRun {
     int exit_code = -1;
     std::string out;     // standard output
     std::string errors;  // standard error
@@ -43,11 +46,11 @@ class Cli : public testing::Test {
         fs::remove_all(folder_);
     }
 
-    Run run(const std::string& arguments, const std::string& environment = "") const {
+    ProgramRun run(const std::string& arguments, const std::string& environment = "") const {
         const fs::path errors = folder_ / "stderr.txt";
         const std::string command = "cd '" + folder_.string() + "' && " + environment + " " +
                                     PARAFOVEA_PROGRAM + " " + arguments + " 2>'" + errors.string() + "'";
-        Run result;
+        ProgramRun result;
         FILE* pipe = popen(command.c_str(), "r");
         std::array<char, 4096> buffer;
         for (std::size_t n; (n = fread(buffer.data(), 1, buffer.size(), pipe)) > 0;)
@@ -67,7 +70,7 @@ class Cli : public testing::Test {
 };
 
 // Exit 1 and exactly one line, holding every one of the parts.
-void expect_one_line(const Run& result, const std::vector<std::string>& parts) {
+void expect_one_line(const ProgramRun& result, const std::vector<std::string>& parts) {
     EXPECT_EQ(result.exit_code, 1) << result.errors;
     EXPECT_EQ(std::count(result.errors.begin(), result.errors.end(), '\n'), 1) << result.errors;
     for (const std::string& part : parts)
@@ -93,7 +96,7 @@ TEST_F(Cli, WrongUsageExitsWithTwo) {
 
 TEST_F(Cli, EverySubcommandHasHelpWithAnExample) {
     for (const char* command : {"simulate", "analyze", "plan", "check", "render", "foveate", "scenes"}) {
-        const Run result = run(std::string(command) + " --help");
+        const ProgramRun result = run(std::string(command) + " --help");
         EXPECT_EQ(result.exit_code, 0) << command;
         EXPECT_NE(result.out.find("Example: parafovea " + std::string(command)), std::string::npos)
             << command;
@@ -103,7 +106,7 @@ TEST_F(Cli, EverySubcommandHasHelpWithAnExample) {
 TEST_F(Cli, AMisspeltProtocolKeyIsOneLineWithFileAndLine) {
     write("study.toml", replaced(protocol("final.toml"), "interval_s", "intervall_s"));
     // The misspelt key is a mistake of its own, the missing one another; each is a line of its own.
-    const Run result = run("check study.toml");
+    const ProgramRun result = run("check study.toml");
     EXPECT_EQ(result.exit_code, 1);
     EXPECT_NE(result.errors.find("study.toml:"), std::string::npos) << result.errors;
     EXPECT_NE(result.errors.find("intervall_s"), std::string::npos) << result.errors;
@@ -148,7 +151,7 @@ TEST_F(Cli, ThePlanIsTheSameForTheSameSeedAndAnotherForAnotherSeed) {
 }
 
 TEST_F(Cli, RenderWritesItsStatistics) {
-    const Run result =
+    const ProgramRun result =
         run("render --scene primitives --method kfr --sigma 1.8 --alpha 4 --size 320x180 --out a.png --stats "
             "a.json");
     ASSERT_EQ(result.exit_code, 0) << result.errors;
@@ -171,13 +174,121 @@ TEST_F(Cli, RenderWritesItsStatistics) {
 TEST_F(Cli, AnalyzeReproducesThePublishedTable) {
     const fs::path table = fs::path(PARAFOVEA_SHARED_DIR) / "data" / "table1_consistent_responses.csv";
     if (!fs::exists(table)) GTEST_SKIP() << table << " is not here";
-    const Run result = run("analyze '" + table.string() + "' --out results");
+    const ProgramRun result = run("analyze '" + table.string() + "' --out results");
     ASSERT_EQ(result.exit_code, 0) << result.errors;
     for (const char* name : {"figure10.svg", "figure10.png", "figure10.pdf", "figure10.csv", "table1.csv",
                              "table1.md", "report.html"})
         EXPECT_TRUE(fs::exists(folder_ / "results" / name)) << name;
     for (const char* q : {"1.72", "5.79", "8.20", "8.25", "7.49", "14.27", "5.48"})
         EXPECT_NE(result.out.find(q), std::string::npos) << q << " in\n" << result.out;
+}
+
+// A study small enough for a test: the final design's trials on a small display with one scene.
+std::string small_study() {
+    std::string text = protocol("demo.toml");
+    text = replaced(text, "scenes = [\"primitives\", \"atrium\"]", "scenes = [\"primitives\"]");
+    text = replaced(text, "width_px = 1280", "width_px = 96");
+    return replaced(text, "height_px = 1440", "height_px = 108");
+}
+
+TEST_F(Cli, ASimulatedStudyEndsWithItsFigureTableAndReport) {
+    write("study.toml", small_study());
+    const ProgramRun result = run("simulate study.toml --participants 2 --seed 5 --out study --quiet");
+    ASSERT_EQ(result.exit_code, 0) << result.errors;
+    EXPECT_EQ(result.errors, "");
+    EXPECT_TRUE(fs::exists(folder_ / "study" / "figure10.svg"));
+    EXPECT_TRUE(fs::exists(folder_ / "study" / "table1.csv"));
+    EXPECT_NE(contents(folder_ / "study" / "report.html").find("simulated"), std::string::npos);
+    EXPECT_NE(result.out.find("Table 1"), std::string::npos);
+
+    // What is there is not overwritten.
+    expect_one_line(run("simulate study.toml --participants 2 --seed 5 --out study --quiet"), {"study"});
+}
+
+TEST_F(Cli, TheSameSeedGivesTheSameAnswers) {
+    write("study.toml", small_study());
+    ASSERT_EQ(run("simulate study.toml --participants 1 --seed 5 --out once --quiet").exit_code, 0);
+    ASSERT_EQ(run("simulate study.toml --participants 1 --seed 5 --out again --quiet").exit_code, 0);
+    ASSERT_EQ(run("export once --format csv --out once_csv").exit_code, 0);
+    ASSERT_EQ(run("export again --format csv --out again_csv").exit_code, 0);
+    EXPECT_EQ(contents(folder_ / "once_csv" / "responses.csv"),
+              contents(folder_ / "again_csv" / "responses.csv"));
+}
+
+// Everything a killed study leaves behind is whole: the files open, pass SQLite's own check, and hold
+// answers.
+TEST_F(Cli, KillingASimulatedStudyLosesNoAnswer) {
+    write("study.toml", small_study());
+    const pid_t child = fork();
+    if (child == 0) {
+        if (chdir(folder_.c_str()) != 0) _exit(1);
+        execl(PARAFOVEA_PROGRAM, "parafovea", "simulate", "study.toml", "--participants", "8", "--seed", "5",
+              "--out", "study", "--quiet", static_cast<char*>(nullptr));
+        _exit(1);
+    }
+    ASSERT_GT(child, 0);
+
+    // Kill as soon as some answers are on the disk, in the middle of a session.
+    const auto answers = [&](const fs::path& file) {
+        sqlite3* database = nullptr;
+        int count = -1;
+        if (sqlite3_open_v2(file.c_str(), &database, SQLITE_OPEN_READONLY, nullptr) == SQLITE_OK) {
+            sqlite3_stmt* statement = nullptr;
+            if (sqlite3_prepare_v2(database, "SELECT count(*) FROM response", -1, &statement, nullptr) ==
+                    SQLITE_OK &&
+                sqlite3_step(statement) == SQLITE_ROW)
+                count = sqlite3_column_int(statement, 0);
+            sqlite3_finalize(statement);
+        }
+        sqlite3_close(database);
+        return count;
+    };
+    const fs::path first = folder_ / "study" / "sessions" / "demo_simulated-01.sqlite";
+    int seen = -1;
+    for (int waited = 0; seen < 20 && waited < 2400; ++waited) {
+        usleep(50'000);
+        if (fs::exists(first)) seen = answers(first);
+    }
+    kill(child, SIGKILL);
+    int status = 0;
+    waitpid(child, &status, 0);
+    ASSERT_GE(seen, 20);
+    EXPECT_GE(answers(first), seen);
+
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder_ / "study" / "sessions")) {
+        if (entry.path().extension() != ".sqlite") continue;
+        sqlite3* database = nullptr;
+        ASSERT_EQ(sqlite3_open(entry.path().c_str(), &database), SQLITE_OK);
+        std::string verdict;
+        EXPECT_EQ(sqlite3_exec(
+                      database, "PRAGMA integrity_check",
+                      [](void* text, int, char** values, char**) {
+                          *static_cast<std::string*>(text) += values[0];
+                          return 0;
+                      },
+                      &verdict, nullptr),
+                  SQLITE_OK);
+        EXPECT_EQ(verdict, "ok") << entry.path();
+        sqlite3_close(database);
+    }
+}
+
+TEST_F(Cli, ABidsExportOfASimulatedStudyBreaksNoCheckedRule) {
+    write("study.toml", small_study());
+    ASSERT_EQ(run("simulate study.toml --participants 1 --seed 5 --out study --quiet").exit_code, 0);
+    const ProgramRun result = run("export study --format bids --out bids");
+    ASSERT_EQ(result.exit_code, 0) << result.errors;
+    EXPECT_EQ(result.errors, "");
+    EXPECT_NE(result.out.find(" 0 violations"), std::string::npos) << result.out;
+    EXPECT_TRUE(fs::exists(folder_ / "bids" / "dataset_description.json"));
+}
+
+TEST_F(Cli, WithdrawingDeletesOnePersonsFilesAndNoOther) {
+    write("study.toml", small_study());
+    ASSERT_EQ(run("simulate study.toml --participants 2 --seed 5 --out study --quiet").exit_code, 0);
+    ASSERT_EQ(run("withdraw simulated-01 --data study").exit_code, 0);
+    EXPECT_FALSE(fs::exists(folder_ / "study" / "sessions" / "demo_simulated-01.sqlite"));
+    EXPECT_TRUE(fs::exists(folder_ / "study" / "sessions" / "demo_simulated-02.sqlite"));
 }
 
 }  // namespace
