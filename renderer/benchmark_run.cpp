@@ -1,0 +1,111 @@
+// Draws and times the frames of a benchmark.
+#include "renderer/benchmark_run.h"
+
+#include <algorithm>
+#include <cassert>
+#include <chrono>
+#include <cmath>
+
+#include "renderer/scene_catalog.h"
+
+namespace parafovea {
+namespace {
+
+// The value below which a share of the (unsorted) values lies, interpolated.
+double quantile(std::vector<double> values, double share) {
+    assert(!values.empty());
+    std::ranges::sort(values);
+    const double at = share * static_cast<double>(values.size() - 1);
+    const auto below = static_cast<std::size_t>(at);
+    const std::size_t above = std::min(below + 1, values.size() - 1);
+    return std::lerp(values[below], values[above], at - std::floor(at));
+}
+
+struct Measured {
+    std::vector<double> frame_ms;
+    std::vector<FrameStatistics> frames;
+};
+
+// Near the centre; a different pixel each time if it moves.
+PointPx gaze_of_round(SizePx size, int round, bool moving) {
+    PointPx gaze = centre_of(size);
+    if (moving) gaze.x += (round % 2 == 0 ? 1 : -1) * (1 + round / 2);
+    return gaze;
+}
+
+BenchmarkRow row_of(const Measured& measured) {
+    BenchmarkRow row;
+    row.frame_ms = quantile(measured.frame_ms, 0.5);
+    row.frame_ms_low = quantile(measured.frame_ms, 0.25);
+    row.frame_ms_high = quantile(measured.frame_ms, 0.75);
+    const FrameStatistics& last = measured.frames.back();
+    row.shaded_samples = last.shaded_samples;
+    row.peak_device_memory_bytes = last.peak_device_memory_bytes;
+    for (const PassTimer::Pass& pass : last.passes) {
+        std::vector<double> times;
+        for (const FrameStatistics& frame : measured.frames) times.push_back(frame.pass_ms(pass.name));
+        row.passes.push_back({pass.name, quantile(times, 0.5)});
+        if (pass.name == "pass_1") row.shading_ms = row.passes.back().ms;
+    }
+    return row;
+}
+
+}  // namespace
+
+std::vector<BenchmarkMethod> standard_benchmark_methods() {
+    return {
+        {"KFR as published", {"kfr", {{"sigma", 1.8}, {"alpha", 4}, {"culling", 0}}, {}}},
+        {"KFR", {"kfr", {{"sigma", 1.8}, {"alpha", 4}}, {}}},
+    };
+}
+
+std::vector<BenchmarkRow> run_benchmark(Gpu& gpu, const BenchmarkPlan& plan,
+                                        const std::function<void(double, const std::string&)>& progress) {
+    using Clock = std::chrono::steady_clock;
+    assert(plan.warm_up_rounds >= 1 && plan.rounds >= 1);
+    std::vector<BenchmarkMethod> methods{{"full resolution", {}}};
+    methods.insert(methods.end(), plan.methods.begin(), plan.methods.end());
+    const int rounds = plan.warm_up_rounds + plan.rounds;
+    const double frames =
+        static_cast<double>(plan.scenes.size() * plan.sizes.size() * methods.size()) * rounds;
+    double drawn = 0;
+
+    std::vector<BenchmarkRow> rows;
+    for (const std::string& scene_name : plan.scenes) {
+        const Scene scene = load_scene(scene_name);
+        FrameRenderer renderer(gpu, scene, plan.options);
+        for (const SizePx size : plan.sizes) {
+            const CameraView view = view_through(scene.cameras.front(), size);
+            std::vector<Measured> measured(methods.size());
+            for (int round = 0; round < rounds; ++round) {
+                for (std::size_t m = 0; m < methods.size(); ++m) {
+                    if (progress) {
+                        progress(drawn / frames, scene_name + " " + std::to_string(size.width) + "x" +
+                                                     std::to_string(size.height) + " " + methods[m].label);
+                    }
+                    const PointPx gaze = gaze_of_round(size, round, plan.moving_gaze);
+                    const Clock::time_point start = Clock::now();
+                    const RenderedFrame frame = renderer.render(size, view, methods[m].method, gaze, false);
+                    const double ms = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+                    drawn += 1;
+                    if (round < plan.warm_up_rounds) continue;
+                    measured[m].frame_ms.push_back(ms);
+                    measured[m].frames.push_back(frame.statistics);
+                }
+            }
+            const std::size_t first = rows.size();
+            for (std::size_t m = 0; m < methods.size(); ++m) {
+                BenchmarkRow row = row_of(measured[m]);
+                row.scene = scene_name;
+                row.size = size;
+                row.method = methods[m];
+                rows.push_back(row);
+                rows.back().speedup = rows[first].frame_ms / row.frame_ms;
+            }
+        }
+    }
+    if (progress) progress(1, "done");
+    return rows;
+}
+
+}  // namespace parafovea
