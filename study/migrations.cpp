@@ -10,12 +10,13 @@
 namespace parafovea {
 namespace {
 
-// 2: the view, a hash of every showing's values, and what each frame knew, so that a session can be replayed
-// exactly.
+// 2: the view, levels of adaptive procedures, a hash of every showing's values, and what each frame knew, so
+// that a session can be replayed exactly.
 void to_version_2(Database& database) {
     const ViewGeometry view =
         parse_protocol(read_protocol_text(database, nullptr), database.path()).display.view;
     database.execute(
+        "ALTER TABLE trial ADD COLUMN level REAL;"
         "ALTER TABLE trial ADD COLUMN content_hash INTEGER;"
         "ALTER TABLE frame ADD COLUMN gaze_known INTEGER;"
         "ALTER TABLE frame ADD COLUMN events_known INTEGER;"

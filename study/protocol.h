@@ -14,6 +14,8 @@
 #include "devices/controller_source.h"
 #include "devices/geometry.h"
 #include "study/method_setting.h"
+#include "study/quest_plus.h"
+#include "study/staircase.h"
 
 namespace parafovea {
 
@@ -133,8 +135,14 @@ struct Questions {
     bool sickness_before_after = false;  // Simulator Sickness Questionnaire
 };
 
-// A procedure that chooses the level of one parameter from the answers so far, instead of constant stimuli.
-// See study/staircase.h and study/quest_plus.h for what the numbers mean.
+// A procedure that chooses the level of one number of the method from the answers so far, instead of constant
+// stimuli: each condition gets one of its own in each testing session. See study/adaptive.h.
+struct Procedure {
+    std::string parameter;                // e.g. "sigma"
+    Staircase staircase;                  // its levels are the procedure's
+    std::optional<QuestPlus> quest_plus;  // in place of the staircase
+};
+
 struct Protocol {
     std::string name;  // also names files; letters, digits, '-' and '_'
     StudyKind kind = StudyKind::free;
@@ -147,7 +155,8 @@ struct Protocol {
     Timing timing;
     MethodSetting reference;                // one side of every pair
     std::vector<MethodSetting> conditions;  // the other side, in the order listed (first factor slowest)
-    std::vector<std::string> factors;  // the parameters that differ between conditions, in the file's order
+    std::vector<std::string> factors;    // the parameters that differ between conditions, in the file's order
+    std::optional<Procedure> procedure;  // absent: constant stimuli
     Design design;
     Rests rests;
     Keys keys;

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "study/condition_list.h"
+#include "study/procedure_parser.h"
 #include "study/protocol.h"
 #include "study/toml_section.h"
 
@@ -277,6 +278,7 @@ Protocol parse_protocol(std::string_view text, const std::string& file_name) {
     read_timing(root, protocol.timing);
     read_conditions(root, protocol);
     read_design(root, protocol.design);
+    read_procedure(root, protocol);
     read_rests(root, protocol.rests);
     read_keys(root, protocol.keys);
     read_validity(root, protocol.validity);

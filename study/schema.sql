@@ -77,6 +77,7 @@ CREATE TABLE trial (
     valid            INTEGER NOT NULL CHECK (valid IN (0, 1)),        -- broke no rule (which: flag)
     interrupted      INTEGER NOT NULL CHECK (interrupted IN (0, 1)),  -- stopped from outside
     superseded       INTEGER NOT NULL DEFAULT 0 CHECK (superseded IN (0, 1)),  -- to be shown again by decision
+    level            REAL,                 -- of an adaptive procedure's parameter; NULL: constant stimuli
     content_hash     INTEGER,              -- FNV-1a over its values here and below; NULL: written by version 1
     UNIQUE (trial, attempt)
 );

@@ -242,6 +242,7 @@ void SessionLog::append(TrialRecord record) {
     shown.identical = record.answer && record.answer->identical;
     shown.valid = record.invalid.empty();
     shown.interrupted = record.interrupted;
+    shown.level = record.level;
     state_->enqueue([record = std::move(record), anchor = state_->anchor](Database& database) {
         write_trial(database, record, anchor);
     });

@@ -50,7 +50,8 @@ struct ShownTrial {
     bool identical = false;
     bool valid = false;
     bool interrupted = false;
-    bool superseded = false;  // to be shown again by decision
+    bool superseded = false;      // to be shown again by decision
+    std::optional<double> level;  // of an adaptive procedure's parameter
 };
 
 struct CalibrationPoint {

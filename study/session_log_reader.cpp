@@ -86,12 +86,13 @@ std::vector<TrialRow> read_trials(Database& database, const TrialPlan& plan) {
     std::vector<TrialRow> trials;
     Statement row = database.prepare(
         "SELECT trial_id, trial, attempt, started_host_ns, interrupted, superseded, identical, button, "
-        "host_ns, reaction_ns "
-        "FROM trial LEFT JOIN response USING (trial_id) ORDER BY trial_id");
+        "host_ns, reaction_ns, "
+        "level FROM trial LEFT JOIN response USING (trial_id) ORDER BY trial_id");
     while (row.step()) {
         TrialRow trial;
         const std::int64_t trial_id = row.integer(0);
         trial.planned = plan.trials.at(static_cast<std::size_t>(row.integer(1)));
+        trial.level = row.optional_real(10);
         trial.attempt = static_cast<int>(row.integer(2));
         trial.shown = static_cast<int>(trials.size());
         trial.started = {row.integer(3)};
@@ -164,6 +165,7 @@ StoredTrial read_trial(const std::filesystem::path& path, int trial_number, int 
     TrialRecord& record = stored.record;
     record.planned = row->planned;
     record.attempt = attempt;
+    record.level = row->level;
     record.started = row->started;
     record.interrupted = row->interrupted;
     record.answer = row->answer;

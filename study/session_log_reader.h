@@ -18,7 +18,8 @@ namespace parafovea {
 
 // One showing of a planned trial.
 struct TrialRow {
-    PlannedTrial planned;
+    PlannedTrial planned;         // as planned: an adaptive procedure's level is beside it
+    std::optional<double> level;  // see study/adaptive.h, at_level
     int attempt = 0;
     int shown = 0;  // order of showing in the session, from 0
     HostTime started;

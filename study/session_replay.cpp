@@ -5,6 +5,7 @@
 #include <stop_token>
 
 #include "devices/clock.h"
+#include "study/adaptive.h"
 #include "study/database.h"
 #include "study/migrations.h"
 #include "study/session_log_reader.h"
@@ -122,6 +123,7 @@ std::string difference(const TrialRecord& recorded, const TrialRecord& replayed)
         (recorded.answer && (recorded.answer->identical != replayed.answer->identical ||
                              recorded.answer->time != replayed.answer->time)))
         return "the answer differs";
+    if (recorded.level != replayed.level) return "the procedure chooses another level";
     if (recorded.invalid != replayed.invalid) return "the broken validity rules differ";
     if (recorded.gaze.size() != replayed.gaze.size()) return "gaze samples are missing";
     return "an interval or an event differs";
@@ -162,6 +164,34 @@ class Replay {
                                       std::to_string(row.attempt) + ": " + how);
     }
 
+    // Whether a showing no longer counted when a later one was shown: a whole session is superseded after
+    // both.
+    bool was_superseded(const TrialRow& earlier, const TrialRow& row) const {
+        if (!earlier.superseded || !row.superseded) return earlier.superseded;
+        return std::any_of(rows_.trials.begin(), rows_.trials.end(), [&](const TrialRow& again) {
+            return again.planned.number == earlier.planned.number && again.attempt > earlier.attempt &&
+                   again.shown < row.shown;
+        });
+    }
+
+    // What the procedure knew when the trial was shown.
+    std::vector<ShownTrial> shown_before(const TrialRow& row) const {
+        std::vector<ShownTrial> shown;
+        for (const TrialRow& earlier : rows_.trials) {
+            if (earlier.shown >= row.shown) break;
+            ShownTrial trial;
+            trial.number = earlier.planned.number;
+            trial.answered = earlier.answer.has_value();
+            trial.identical = earlier.answer && earlier.answer->identical;
+            trial.valid = earlier.invalid.empty();
+            trial.interrupted = earlier.interrupted;
+            trial.superseded = was_superseded(earlier, row);
+            trial.level = earlier.level;
+            shown.push_back(trial);
+        }
+        return shown;
+    }
+
     void replay_trial(const TrialRow& row, const Protocol& protocol) {
         ++report_.trials;
         const StoredTrial stored = read_trial(path_, row.planned.number, row.attempt);
@@ -183,8 +213,10 @@ class Replay {
         const int lead_in =
             stored.record.intervals[static_cast<std::size_t>(Phase::lead_in)].presented_frames;
         control.stimulus_ready = [&] { return static_cast<int>(position.frame) >= lead_in; };
-        TrialRecord replayed = run_trial(row.planned, protocol, stage, gaze, controller, clock, control);
+        TrialRecord replayed = run_trial(at_level(row.planned, protocol, row.level), protocol, stage, gaze,
+                                         controller, clock, control);
         replayed.attempt = row.attempt;
+        replayed.level = adaptive_level(protocol, rows_.plan, shown_before(row), row.planned);
         for (const std::int64_t frame : stage.wrong_images)
             differs(row, "frame " + std::to_string(frame) + " is another picture");
         // What was rendered differently is reported above, and only once.

@@ -140,10 +140,11 @@ std::int64_t write_anchor(Database& database, ClockAnchor anchor) {
 void write_trial(Database& database, const TrialRecord& record, std::int64_t anchor) {
     database
         .prepare(
-            "INSERT INTO trial (trial, attempt, anchor, started_host_ns, valid, interrupted, content_hash) "
-            "VALUES (?, ?, ?, ?, ?, ?, ?)")
+            "INSERT INTO trial (trial, attempt, anchor, started_host_ns, valid, interrupted, level, "
+            "content_hash) "
+            "VALUES (?, ?, ?, ?, ?, ?, ?, ?)")
         .bind_all(record.planned.number, record.attempt, anchor, record.started.ns, record.invalid.empty(),
-                  record.interrupted, bits(content_hash(record)))
+                  record.interrupted, record.level, bits(content_hash(record)))
         .run();
     const std::int64_t trial_id = database.last_row_id();
     write_intervals(database, record, trial_id);
@@ -238,7 +239,8 @@ SessionFacts read_facts(Database& database) {
 std::vector<ShownTrial> read_shown(Database& database) {
     std::vector<ShownTrial> shown;
     Statement row = database.prepare(
-        "SELECT trial, attempt, identical, valid, interrupted, superseded FROM trial LEFT JOIN response "
+        "SELECT trial, attempt, identical, valid, interrupted, superseded, level FROM trial LEFT JOIN "
+        "response "
         "USING (trial_id) "
         "ORDER BY trial_id");
     while (row.step()) {
@@ -250,6 +252,7 @@ std::vector<ShownTrial> read_shown(Database& database) {
         trial.valid = row.integer(3) != 0;
         trial.interrupted = row.integer(4) != 0;
         trial.superseded = row.integer(5) != 0;
+        trial.level = row.optional_real(6);
         shown.push_back(trial);
     }
     return shown;

@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
+#include "study/adaptive.h"
 #include "study/trial_runner.h"
 
 namespace parafovea {
@@ -196,7 +198,11 @@ class RunningSession {
                        event.time >= *may_leave;
             });
             if (left && participant_may_leave) return true;
-            if (hooks_.operator_request && hooks_.operator_request() == OperatorRequest::proceed) return true;
+            if (!hooks_.operator_request) continue;
+            const OperatorRequest request = hooks_.operator_request();
+            if (request == OperatorRequest::proceed) return true;
+            // What cannot be done on a page is done after it.
+            if (request != OperatorRequest::none) waiting_request_ = request;
         }
         return false;
     }
@@ -223,7 +229,9 @@ class RunningSession {
     // Between trials. False where what comes next has to be found out anew.
     bool serve_operator() {
         if (!hooks_.operator_request) return true;
-        switch (hooks_.operator_request()) {
+        const OperatorRequest request = hooks_.operator_request();
+        const OperatorRequest before = std::exchange(waiting_request_, OperatorRequest::none);
+        switch (request != OperatorRequest::none ? request : before) {
             case OperatorRequest::none:
             case OperatorRequest::proceed:
                 return true;
@@ -262,8 +270,12 @@ class RunningSession {
             log_.wait_until_durable();
             return true;
         };
-        TrialRecord record = run_trial(*next.planned, protocol_, stage_, gaze_, controller_, clock_, control);
+        const std::optional<double> level =
+            adaptive_level(protocol_, log_.plan(), log_.shown(), *next.planned);
+        TrialRecord record = run_trial(at_level(*next.planned, protocol_, level), protocol_, stage_, gaze_,
+                                       controller_, clock_, control);
         record.attempt = next.attempt;
+        record.level = level;
         if (hooks_.on_trial) hooks_.on_trial(record);
         const bool interrupted = record.interrupted;
         log_.append(std::move(record));
@@ -279,6 +291,7 @@ class RunningSession {
     const SessionHooks& hooks_;
     const SessionOptions& options_;
     int session_ = 0;
+    OperatorRequest waiting_request_ = OperatorRequest::none;
 };
 
 }  // namespace

@@ -47,7 +47,11 @@ class Hash {
 
 std::uint64_t content_hash(const TrialRecord& record) {
     Hash hash;
-    hash.add(record.planned.number).add(record.attempt).add(record.started).add(record.interrupted);
+    hash.add(record.planned.number)
+        .add(record.attempt)
+        .add(record.level)
+        .add(record.started)
+        .add(record.interrupted);
     for (const IntervalRecord& interval : record.intervals)
         hash.add(interval.phase)
             .add(interval.intended_frames)

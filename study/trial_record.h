@@ -50,7 +50,8 @@ struct Answer {
 
 struct TrialRecord {
     PlannedTrial planned;
-    int attempt = 0;  // 0, or how often this planned trial had been shown before
+    int attempt = 0;              // 0, or how often this planned trial had been shown before
+    std::optional<double> level;  // of an adaptive procedure's parameter
     HostTime started;
     std::array<IntervalRecord, 5> intervals;  // by Phase
     std::vector<FrameRecord> frames;

@@ -101,6 +101,29 @@ INSTANTIATE_TEST_SUITE_P(
         Mistaken{"language = \"en\"", "language = \"fr\"", "[texts.en]", "[texts.fr]"},
         Mistaken{"question = \"Same?\"\n", "", "[texts.en]", "\"question\""},
         Mistaken{"rest = \"Rest\"", "rest = \"Rest\"\nbreak = \"Break\"", "break =", "\"break\""},
+        Mistaken{"[design]",
+                 "[procedure]\nkind = \"stair\"\nparameter = \"x\"\nlevels = [1, 2]\ntrials = 3\n[design]",
+                 "kind =", "quest_plus"},
+        Mistaken{"[design]",
+                 "[procedure]\nkind = \"staircase\"\nparameter = \"sigma\"\nlevels = [1, 2]\ntrials = "
+                 "3\nstart = 1\n[design]",
+                 "parameter =", "no factor"},
+        Mistaken{"[design]",
+                 "[procedure]\nkind = \"staircase\"\nparameter = \"x\"\nlevels = [2, 1]\ntrials = 3\nstart = "
+                 "1\n[design]",
+                 "levels =", "ascending"},
+        Mistaken{"[design]",
+                 "[procedure]\nkind = \"staircase\"\nparameter = \"x\"\nlevels = [1, 2]\ntrials = 3\nstart = "
+                 "1.5\n[design]",
+                 "start =", "one of the levels"},
+        Mistaken{"[design]",
+                 "[procedure]\nkind = \"staircase\"\nparameter = \"x\"\nlevels = [1, 2]\ntrials = 3\nstart = "
+                 "1\nslopes = [1]\n[design]",
+                 "slopes =", "\"slopes\""},
+        Mistaken{"[design]",
+                 "[procedure]\nkind = \"quest_plus\"\nparameter = \"x\"\nlevels = [1, 2]\ntrials = "
+                 "3\nthresholds = [1, 2]\nslopes = [0]\n[design]",
+                 "slopes =", "above 0"},
         Mistaken{"gap_s = 0.1", "gap_s = ", "gap_s", "grammar"}));
 
 TEST(Protocol, all_mistakes_are_told_at_once_in_the_order_of_lines) {
