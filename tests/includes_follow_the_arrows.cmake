@@ -1,6 +1,8 @@
 # Fails on any #include of another folder that the layout does not allow. A header can be included without linking,
 # so the libraries alone do not keep the arrows.
 #   cmake -DROOT=<source folder> -P includes_follow_the_arrows.cmake
+cmake_minimum_required(VERSION 3.25)
+
 set(folders app renderer study devices analysis)
 set(may_include_app renderer study devices analysis)
 set(may_include_renderer devices)
