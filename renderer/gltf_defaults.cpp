@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -59,10 +60,55 @@ glm::vec3 sun_that_shines_in(const Scene& scene, glm::vec3 otherwise) {
     return best;
 }
 
+// In a house: at eye height near a lamp, where the view reaches farthest. Empty if every place is blocked.
+std::optional<SceneCamera> room_camera(const Scene& scene) {
+    constexpr int kDirections = 48;
+    constexpr float kEyeHeight_m = 1.55f, kFarEnough_m = 9;
+    const SceneVoxels voxels(scene, 128);
+    const float eye_y = world_bounds(scene).low.y + kEyeHeight_m;
+    std::optional<SceneCamera> best;
+    float best_score = 1.5f;
+    for (const PunctualLight& lamp : scene.lights) {
+        for (int place = 0; place < 16; ++place) {
+            const float turn = 2 * std::numbers::pi_v<float> * static_cast<float>(place) / 16;
+            const glm::vec3 eye{lamp.position.x + 1.8f * std::sin(turn), eye_y,
+                                lamp.position.z + 1.8f * std::cos(turn)};
+            if (!inside(voxels.bounds(), eye) || voxels.filled(eye)) continue;
+            float reach[kDirections];
+            const auto direction = [](int i) {
+                const float angle = 2 * std::numbers::pi_v<float> * static_cast<float>(i) / kDirections;
+                return glm::vec3(std::sin(angle), -0.08f, std::cos(angle));
+            };
+            for (int i = 0; i < kDirections; ++i) {
+                const SceneVoxels::Hit hit = voxels.trace(eye, glm::normalize(direction(i)));
+                // A view out of the house shows nothing.
+                reach[i] = hit.surface < 0 ? 0 : std::min(hit.distance_m, kFarEnough_m);
+            }
+            for (int i = 0; i < kDirections; ++i) {
+                float sum = 0, nearest = kFarEnough_m;
+                for (int k = -5; k <= 5; ++k) {
+                    const float r = reach[(i + k + kDirections) % kDirections];
+                    sum += r / 11;
+                    nearest = std::min(nearest, r);
+                }
+                const float score = sum + std::min(nearest, 2.0f);
+                if (score <= best_score) continue;
+                best_score = score;
+                best = camera_looking(eye, eye + direction(i), 1.0f);
+                best->name = "room";
+            }
+        }
+    }
+    return best;
+}
+
 }  // namespace
 
 SceneCamera default_camera(const Scene& scene) {
     constexpr float kFov = 0.8f;
+    // Lamps and the size of a building: people look at it from within.
+    if (!scene.lights.empty() && world_bounds(scene).radius() > 4)
+        if (const auto room = room_camera(scene)) return *room;
     const Bounds bounds = world_bounds(scene);
     const float radius = std::max(bounds.radius(), 1e-4f);
     const glm::vec3 from =
@@ -85,6 +131,7 @@ void light_by_default(Scene& scene, bool has_sun) {
         glm::vec3 to_sun = glm::normalize(glm::vec3(0.45f, 0.75f, 0.5f));
         if (indoors) to_sun = sun_that_shines_in(scene, to_sun);
         scene.sun = Sun{to_sun, glm::vec3(3.2f, 3.0f, 2.7f), true};
+        scene.exposure = 0.75f;
     } else {
         // A scene with lamps of its own is lit by them; the sky only fills in.
         scene.sky = Sky{glm::vec3(0.25f), glm::vec3(0.3f), glm::vec3(0.15f)};

@@ -5,7 +5,8 @@
 
 namespace parafovea {
 
-// Looks at the whole scene from a little above.
+// In a scene with lamps and the size of a house a place inside with a wide view, else a view of the whole
+// from a little above.
 SceneCamera default_camera(const Scene& scene);
 
 // Adds what a file leaves open. Without any light: a sun and a sky; if the first camera stands inside the

@@ -9,6 +9,7 @@
 #include <fstream>
 #include <glm/gtc/quaternion.hpp>
 #include <glm/gtc/type_ptr.hpp>
+#include <iterator>
 #include <set>
 #include <stdexcept>
 #include <utility>
@@ -16,6 +17,7 @@
 #include "renderer/gltf_accessor.h"
 #include "renderer/gltf_defaults.h"
 #include "renderer/gltf_material.h"
+#include "renderer/gltf_types.h"
 #include "renderer/scene_tangents.h"
 
 namespace parafovea {
@@ -51,12 +53,34 @@ struct Parsed {
     std::vector<EncodedImage> images;
 };
 
+std::string whole_text(std::ifstream& file) {
+    file.clear();
+    file.seekg(0);
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+
+// The JSON of a .glb file: after the header of 12 bytes, length and kind of the first chunk. Empty if it is
+// cut short; the parser says so better.
+std::string json_chunk(std::ifstream& file) {
+    std::uint32_t header[2] = {};
+    file.seekg(12);
+    file.read(reinterpret_cast<char*>(header), sizeof header);
+    file.seekg(0, std::ios::end);
+    const auto size = static_cast<std::uint64_t>(file.tellg());
+    if (!file || std::uint64_t{header[0]} + 20 > size) return "";
+    std::string text(header[0], ' ');
+    file.seekg(20);
+    file.read(text.data(), static_cast<std::streamsize>(text.size()));
+    return text;
+}
+
 Parsed parse(const std::string& path) {
     std::ifstream file(path, std::ios::binary);
     if (!file) throw std::runtime_error("there is no such file");
     char magic[4] = {};
     file.read(magic, 4);
     const bool binary = file.gcount() == 4 && std::string_view(magic, 4) == "glTF";
+    check_gltf_types(binary ? json_chunk(file) : whole_text(file));
 
     Parsed parsed;
     tinygltf::TinyGLTF reader;

@@ -77,6 +77,16 @@ TEST(Atrium, HasItsCameraInsideTheHall) {
     }
 }
 
+TEST(Street, HasAMillionTrianglesDozensOfLampsAndGlass) {
+    const Scene scene = load_scene("street");
+    const SceneFeatures f = features_of(scene);
+    EXPECT_GE(triangles_drawn(scene), 1000000u);
+    EXPECT_GE(f.punctual_lights, 24);
+    EXPECT_LE(f.punctual_lights, 64);
+    EXPECT_TRUE(f.alpha_blend && f.transmission && f.emission && f.normal_maps);
+    EXPECT_EQ(hash_of(scene), hash_of(load_scene("street")));
+}
+
 TEST(Primitives, AreRayMarchedWithoutMeshes) {
     const Scene scene = load_scene("primitives");
     EXPECT_TRUE(scene.ray_marched);
