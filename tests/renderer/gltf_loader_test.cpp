@@ -2,6 +2,7 @@
 #include "renderer/gltf_loader.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cmath>
 #include <filesystem>
@@ -50,7 +51,7 @@ class GltfFile {
     std::string more;
 
     Scene load() const {
-        const auto path = std::filesystem::path(testing::TempDir()) / "parafovea_loader_test.gltf";
+        const auto path = std::filesystem::path(testing::TempDir()) / ("parafovea_loader_test_" + std::to_string(getpid()) + ".gltf");
         std::ofstream(path) << R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[)" << roots
                             << R"(]}],"nodes":[)" << nodes << R"(],"meshes":[{"name":"square","primitives":[)"
                             << primitive << R"(]}],"accessors":[)" << accessors

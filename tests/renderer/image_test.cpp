@@ -2,6 +2,7 @@
 #include "renderer/image.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <fstream>
 
@@ -11,7 +12,7 @@ namespace parafovea {
 namespace {
 
 std::filesystem::path temporary(const std::string& name) {
-    return std::filesystem::path(testing::TempDir()) / ("parafovea_image_" + name);
+    return std::filesystem::path(testing::TempDir()) / ("parafovea_image_" + std::to_string(getpid()) + "_" + name);
 }
 
 std::string failure_of(const std::function<void()>& f) {
