@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstring>
 #include <glm/gtc/packing.hpp>
+#include <numbers>
 #include <optional>
 
 #include "renderer/scene_irradiance.h"
@@ -20,8 +21,9 @@ const ResourceUse kUseUniform{VK_PIPELINE_STAGE_2_ALL_GRAPHICS_BIT | VK_PIPELINE
                               VK_ACCESS_2_UNIFORM_READ_BIT, VK_IMAGE_LAYOUT_UNDEFINED};
 
 // The exposure that shows a grey surface near the eye as grey, as a camera left to itself would choose.
-float exposure_at(const IrradianceVolume& volume, glm::vec3 eye) {
-    constexpr float kReach_m = 3, kKey = 0.45f;
+float exposure_at(const IrradianceVolume& volume, glm::vec3 eye, const std::vector<PunctualLight>& lamps) {
+    constexpr float kReach_m = 3, kKey = 0.4f;
+    const glm::vec3 luminance{0.2126f, 0.7152f, 0.0722f};
     const glm::vec3 cell = (volume.box.high - volume.box.low) / glm::vec3(volume.size);
     float sum = 0, weights = 0;
     for (int z = 0; z < volume.size.z; ++z) {
@@ -29,8 +31,15 @@ float exposure_at(const IrradianceVolume& volume, glm::vec3 eye) {
             for (int x = 0; x < volume.size.x; ++x) {
                 const glm::vec3 offset = volume.box.low + (glm::vec3(x, y, z) + 0.5f) * cell - eye;
                 const float weight = 1 / (1 + glm::dot(offset, offset) / (kReach_m * kReach_m));
-                const float light = 0.2126f * volume.at(0, x, y, z).x + 0.7152f * volume.at(1, x, y, z).x +
-                                    0.0722f * volume.at(2, x, y, z).x;
+                float light = glm::dot(luminance, glm::vec3(volume.at(0, x, y, z).x, volume.at(1, x, y, z).x,
+                                                            volume.at(2, x, y, z).x));
+                // The volume holds what surfaces pass on; the lamps' own light falls on about half of all
+                // directions.
+                for (const PunctualLight& lamp : lamps) {
+                    const glm::vec3 away = eye + offset - lamp.position;
+                    light += glm::dot(luminance, lamp.intensity) /
+                             (2 * std::numbers::pi_v<float> * std::max(glm::dot(away, away), 0.25f));
+                }
                 // The logarithm keeps a window from counting for the whole room.
                 sum += weight * std::log(std::max(light, 1e-4f));
                 weights += weight;
@@ -174,7 +183,8 @@ void ScenePasses::Parts::build_irradiance_volume(const Scene& scene) {
         volume.size = glm::ivec3(1);
         volume.texels.assign(3, glm::vec4(0));
     }
-    if (!(scene.exposure > 0)) lighting.sun_direction.w = build_irradiance ? exposure_at(volume, eye) : 1;
+    if (!(scene.exposure > 0))
+        lighting.sun_direction.w = build_irradiance ? exposure_at(volume, eye, scene.lights) : 1;
     std::vector<std::uint64_t> halves;
     halves.reserve(volume.texels.size());
     for (const glm::vec4& texel : volume.texels) halves.push_back(glm::packHalf4x16(texel));

@@ -94,17 +94,17 @@ vec3 lamp_light(Surface s, vec3 point, vec3 to_eye) {
     ivec2 cell = ivec2((point.xz - lighting.light_grid.xy) * lighting.light_grid.zw);
     uvec2 lamps = texelFetch(light_grid, clamp(cell, ivec2(0), most), 0).xy;
     vec3 sum = vec3(0.0);
-    while (lamps.x != 0u) {
-        int i = findLSB(lamps.x);
-        lamps.x &= lamps.x - 1u;
-        sum += light_of(lighting.lights[i], s, point, to_eye);
-    }
-    if (kLights <= 32u) return sum;
-    while (lamps.y != 0u) {
-        int i = findLSB(lamps.y);
-        lamps.y &= lamps.y - 1u;
-        sum += light_of(lighting.lights[i + 32], s, point, to_eye);
-    }
+    // The test stands last: some devices run a loop's body once more than its test would let them.
+    do {
+        bool low = lamps.x != 0u;
+        int i = max(low ? findLSB(lamps.x) : findLSB(lamps.y), 0);
+        float counts = lamps.x != 0u || lamps.y != 0u ? 1.0 : 0.0;
+        sum += counts * light_of(lighting.lights[low ? i : i + 32], s, point, to_eye);
+        if (low)
+            lamps.x &= lamps.x - 1u;
+        else
+            lamps.y &= lamps.y - min(lamps.y, 1u);
+    } while ((lamps.x | lamps.y) != 0u);
     return sum;
 }
 
