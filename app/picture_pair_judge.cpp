@@ -8,9 +8,10 @@ namespace parafovea {
 namespace {
 
 std::size_t bytes_of(const ContrastBands& bands) {
-    std::size_t floats = 0;
-    for (const auto& band : bands.bands) floats += band.difference.size() + band.masker.size();
-    return floats * sizeof(float);
+    std::size_t bytes = 0;
+    for (const auto& band : bands.bands)
+        bytes += band.difference.size() * (2 * sizeof(float) + sizeof(std::uint16_t));
+    return bytes;
 }
 
 RgbaView view_of(const PictureOnDisplay& picture) {
