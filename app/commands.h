@@ -153,6 +153,22 @@ class WithdrawCommand {
     std::string participant_, data_ = "data";
 };
 
+class BenchCommand {
+  public:
+    explicit BenchCommand(CLI::App& program);
+
+  private:
+    void run() const;
+
+    std::vector<std::string> scenes_ = {"atrium", "primitives"};
+    std::vector<std::string> sizes_ = {"1920x1080", "2560x1440", "3840x2160"};
+    std::vector<std::string> methods_;
+    std::string out_;
+    int rounds_ = 5;
+    bool moving_gaze_ = false;
+    bool quiet_ = false;
+};
+
 class ScenesCommand {
   public:
     explicit ScenesCommand(CLI::App& program);

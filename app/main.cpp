@@ -19,6 +19,7 @@ int main(int argc, char** argv) {
     const parafovea::CheckCommand check(program);
     const parafovea::RenderCommand render(program);
     const parafovea::FoveateCommand foveate(program);
+    const parafovea::BenchCommand bench(program);
     const parafovea::ScenesCommand scenes(program);
     const parafovea::WithdrawCommand withdraw(program);
 
