@@ -164,7 +164,9 @@ void OpenXrSession::follow(const XrEventDataSessionStateChanged& change) {
             XrSessionBeginInfo begin{XR_TYPE_SESSION_BEGIN_INFO};
             begin.primaryViewConfigurationType = instance_.view_configuration();
             running_ = still_there(xrBeginSession(session_, &begin), "beginning the session");
-            if (running_) state_ = SessionState::starting;
+            if (!running_) break;
+            state_ = SessionState::starting;
+            ++beginnings_;
             break;
         }
         case XR_SESSION_STATE_SYNCHRONIZED:

@@ -72,6 +72,9 @@ class OpenXrSession {
     bool restart();
     int restarts() const { return restarts_; }
 
+    // How often the headset was ready to show our frames: once, and again each time it was put on.
+    int beginnings() const { return beginnings_; }
+
     // Turns the room so that straight ahead is where the head looks now, and its origin is where the head is.
     // Without effect on pictures in the head's frame. False while the head is not tracked.
     bool recentre();
@@ -123,7 +126,7 @@ class OpenXrSession {
     std::vector<Swapchain> swapchains_;
     SessionState state_ = SessionState::starting;
     bool running_ = false;
-    int restarts_ = 0;
+    int restarts_ = 0, beginnings_ = 0;
     DisplayTimeCheck display_times_;
     std::optional<Duration> period_;
 };

@@ -70,6 +70,9 @@ void read_setting(Settings& settings, std::string_view name, std::string_view va
     } else if (name == "refresh_hz") {
         settings.refresh_hz = parse_number<double>(value, entry);
         if (!(settings.refresh_hz >= 1 && settings.refresh_hz <= 1000)) refuse(entry, "a rate in 1..1000");
+    } else if (name == "shrink") {
+        settings.shrink = parse_number<int>(value, entry);
+        if (settings.shrink < 1 || settings.shrink > 32) refuse(entry, "a number in 1..32");
     } else if (name == "gaze") {
         read_gaze(settings, value, entry);
     } else if (name == "gaze_latency_ms") {

@@ -41,6 +41,7 @@ struct Settings {
     bool simulated_pacing = false;  // time moves only in xrWaitFrame, by whole refreshes
     int views = 2;                  // 1, 2 or 4
     double refresh_hz = 70;
+    int shrink = 1;  // recommended pictures are so many times smaller each way
     GazeKind gaze = GazeKind::fixed;
     DirectionDeg fixed_gaze;
     std::filesystem::path recording;  // played from the session's begin, over and over

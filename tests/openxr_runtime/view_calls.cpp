@@ -97,8 +97,9 @@ XrResult enumerate_views(XrInstance handle, XrSystemId system, XrViewConfigurati
     if (type != offered_view_configuration(*object_of<Instance>(handle)))
         return XR_ERROR_VIEW_CONFIGURATION_TYPE_UNSUPPORTED;
     XrViewConfigurationView view{XR_TYPE_VIEW_CONFIGURATION_VIEW};
-    view.recommendedImageRectWidth = kViewWidth;
-    view.recommendedImageRectHeight = kViewHeight;
+    const auto shrink = static_cast<std::uint32_t>(object_of<Instance>(handle)->settings.shrink);
+    view.recommendedImageRectWidth = kViewWidth / shrink;
+    view.recommendedImageRectHeight = kViewHeight / shrink;
     view.maxImageRectWidth = 4096;
     view.maxImageRectHeight = 4096;
     view.recommendedSwapchainSampleCount = 1;
