@@ -155,6 +155,37 @@ TEST(Picture, LightsLampsByInverseSquareAndCone) {
     EXPECT_EQ(pixel(image, 99, 50)[1], 0) << "outside the cone";
 }
 
+TEST(Picture, IsDarkWhereALampIsHidden) {
+    Gpu gpu({.validation = true});
+    Scene scene = dark_scene();
+    scene.sun.reset();
+    const int grey = add_material(scene, glm::vec3(0.8f), 0, 1);
+    add_square(scene, grey, glm::mat4(1));
+    add_square(scene, grey, moved(0.55f, 0, 1, 0.1f));  // halfway between the lamp and the large square
+    PunctualLight lamp;
+    lamp.kind = LightKind::spot;
+    lamp.position = {0.5f, 0, 2};
+    lamp.direction = {0, 0, -1};
+    lamp.intensity = glm::vec3(6);
+    lamp.range_m = 10;
+    lamp.outer_cone_rad = 0.9f;
+    lamp.inner_cone_rad = 0.8f;
+    const auto at = [](const Image& image, double x) {
+        const double px_per_m = 100 / std::tan(0.3) / 5;
+        return pixel(image, static_cast<int>(100 + x * px_per_m), 100)[1];
+    };
+    scene.lights = {lamp};
+    const Image open = render(gpu, scene, {200, 200});
+    scene.lights[0].casts_shadow = true;
+    const Image shadowed = render(gpu, scene, {200, 200});
+    // The shadow spans x from 0.4 to 0.8; from z = 5 the small square hides what lies beyond 0.56.
+    EXPECT_GT(at(open, 0.48), 60);
+    EXPECT_LT(at(shadowed, 0.48), 8);
+    EXPECT_NEAR(at(shadowed, 0.0), at(open, 0.0), 2);
+    EXPECT_NEAR(at(shadowed, -0.6), at(open, -0.6), 2);
+    EXPECT_TRUE(gpu.validation_messages().empty()) << gpu.validation_messages().front();
+}
+
 TEST(Picture, ShowsWhatLiesBehindGlass) {
     Gpu gpu({.validation = true});
     Scene scene = dark_scene();
