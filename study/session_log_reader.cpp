@@ -152,32 +152,25 @@ SessionRows read_session(const std::filesystem::path& path) {
     return rows;
 }
 
-StoredTrial read_trial(const std::filesystem::path& path, int trial_number, int attempt) {
-    const SessionRows rows = read_session(path);
-    const auto row = std::find_if(rows.trials.begin(), rows.trials.end(), [&](const TrialRow& trial) {
-        return trial.planned.number == trial_number && trial.attempt == attempt;
-    });
-    if (row == rows.trials.end())
-        throw std::runtime_error(path.string() + ": expected trial " + std::to_string(trial_number) +
-                                 ", attempt " + std::to_string(attempt) +
-                                 ", found none; choose one that was shown");
+StoredTrial read_trial(const std::filesystem::path& path, const TrialRow& row) {
+    const int number = row.planned.number;
     StoredTrial stored;
     TrialRecord& record = stored.record;
-    record.planned = row->planned;
-    record.attempt = attempt;
-    record.level = row->level;
-    record.started = row->started;
-    record.interrupted = row->interrupted;
-    record.answer = row->answer;
-    record.invalid = row->invalid;
-    std::copy_n(row->intervals.begin(), std::min(row->intervals.size(), record.intervals.size()),
+    record.planned = row.planned;
+    record.attempt = row.attempt;
+    record.level = row.level;
+    record.started = row.started;
+    record.interrupted = row.interrupted;
+    record.answer = row.answer;
+    record.invalid = row.invalid;
+    std::copy_n(row.intervals.begin(), std::min(row.intervals.size(), record.intervals.size()),
                 record.intervals.begin());
-    record.frames = read_frames(path, trial_number, attempt);
-    record.gaze = read_gaze(path, trial_number, attempt);
-    record.events = read_controller_events(path, trial_number, attempt);
+    record.frames = read_frames(path, number, row.attempt);
+    record.gaze = read_gaze(path, number, row.attempt);
+    record.events = read_controller_events(path, number, row.attempt);
     const std::unique_ptr<Database> open = open_for_reading(path);
     Statement hash = rows_of_trial(*open, "SELECT content_hash FROM trial WHERE trial = ? AND attempt = ?",
-                                   trial_number, attempt);
+                                   number, row.attempt);
     if (hash.step() && !hash.is_null(0)) stored.content_hash = std::bit_cast<std::uint64_t>(hash.integer(0));
     return stored;
 }

@@ -58,12 +58,12 @@ struct SessionRows {
 // where the file is not a session or is damaged.
 SessionRows read_session(const std::filesystem::path& path);
 
-// One showing of one trial, complete. Throws std::runtime_error where there is none.
+// One showing, complete: a row of read_session with its frames, gaze and button events.
 struct StoredTrial {
     TrialRecord record;
     std::optional<std::uint64_t> content_hash;  // as it was when written; absent in files of version 1
 };
-StoredTrial read_trial(const std::filesystem::path& path, int trial_number, int attempt = 0);
+StoredTrial read_trial(const std::filesystem::path& path, const TrialRow& row);
 
 // Its parts, in order.
 std::vector<FrameRecord> read_frames(const std::filesystem::path& path, int trial_number, int attempt = 0);

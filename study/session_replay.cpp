@@ -194,7 +194,7 @@ class Replay {
 
     void replay_trial(const TrialRow& row, const Protocol& protocol) {
         ++report_.trials;
-        const StoredTrial stored = read_trial(path_, row.planned.number, row.attempt);
+        const StoredTrial stored = read_trial(path_, row);
         if (!stored.content_hash)
             return differs(row, "it was written by a version that did not keep enough to replay it exactly");
         if (content_hash(stored.record) != *stored.content_hash)

@@ -501,6 +501,7 @@ TEST(KillNine,
         EXPECT_EQ(what_happened(rows), what_happened(whole));
         EXPECT_EQ(pages(rows), pages(whole));
     }
+    RecordProperty("kills", killed);
     EXPECT_GT(killed, 20);
 }
 
