@@ -56,6 +56,19 @@ std::vector<BenchmarkMethod> standard_benchmark_methods() {
     return {
         {"KFR as published", {"kfr", {{"sigma", 1.8}, {"alpha", 4}, {"culling", 0}}, {}}},
         {"KFR", {"kfr", {{"sigma", 1.8}, {"alpha", 4}}, {}}},
+        {"KFR and inset", {"kfr", {{"sigma", 1.8}, {"alpha", 4}, {"inset", 0.075}}, {}}},
+        {"KFR reshaped and inset",
+         {"kfr",
+          {{"sigma", 1.8}, {"alpha", 4}, {"width_scale", 0.28}, {"height_scale", 1.25}, {"inset", 0.05}},
+          {}}},
+        {"linear MAR and inset",
+         {"kfr",
+          {{"sigma", 1.8},
+           {"width_scale", 0.267},
+           {"height_scale", 1.375},
+           {"mar_slope", 14},
+           {"mar_start", 0.039}},
+          {{"kernel", "linear_mar"}}}},
     };
 }
 

@@ -18,10 +18,13 @@ struct KernelName {
     std::string_view name;
     KernelKind kind;
 };
-constexpr std::array kNames{
-    KernelName{"power", KernelKind::power}, KernelName{"polynomial", KernelKind::polynomial},
-    KernelName{"sine", KernelKind::sine},   KernelName{"exponential", KernelKind::exponential},
-    KernelName{"sin", KernelKind::sine},    KernelName{"exp", KernelKind::exponential}};
+constexpr std::array kNames{KernelName{"power", KernelKind::power},
+                            KernelName{"polynomial", KernelKind::polynomial},
+                            KernelName{"sine", KernelKind::sine},
+                            KernelName{"exponential", KernelKind::exponential},
+                            KernelName{"linear_mar", KernelKind::linear_mar},
+                            KernelName{"sin", KernelKind::sine},
+                            KernelName{"exp", KernelKind::exponential}};
 
 std::string number(double value) {
     char text[32];
@@ -71,6 +74,8 @@ shared::uint number_of(KernelKind kind) {
             return shared::kKernelSine;
         case KernelKind::exponential:
             return shared::kKernelExponential;
+        case KernelKind::linear_mar:
+            return shared::kKernelLinearMar;
     }
     assert(false);
     return 0;
@@ -86,7 +91,7 @@ KernelKind kernel_kind_from_name(std::string_view name) {
     const auto found = std::ranges::find(kNames, name, &KernelName::name);
     if (found == kNames.end()) {
         throw std::runtime_error("unknown kernel \"" + std::string(name) +
-                                 "\"; there are power, polynomial, sine and exponential");
+                                 "\"; there are power, polynomial, sine, exponential and linear_mar");
     }
     return found->kind;
 }
@@ -97,7 +102,7 @@ const char* name_of(KernelKind kind) {
 
 const std::vector<KernelKind>& all_kernel_kinds() {
     static const std::vector<KernelKind> kinds{KernelKind::power, KernelKind::polynomial, KernelKind::sine,
-                                               KernelKind::exponential};
+                                               KernelKind::exponential, KernelKind::linear_mar};
     return kinds;
 }
 
@@ -105,10 +110,19 @@ void check(const KernelSetting& setting) {
     check_range("sigma", setting.sigma, 0.5, 50);
     if (setting.kind == KernelKind::power) check_range("alpha", setting.alpha, 0.1, 32);
     if (setting.kind == KernelKind::polynomial) check_polynomial(setting.betas);
+    check_range("width_scale", setting.width_scale, 0.05, 8);
+    check_range("height_scale", setting.height_scale, 0.05, 8);
+    if (setting.kind == KernelKind::linear_mar) {
+        check_range("mar_slope", setting.mar_slope, 1, 200);
+        check_range("mar_start", setting.mar_start, 0, 0.4);
+        if (setting.as_printed)
+            throw std::runtime_error("kernel map: linear_mar has no direction as printed");
+    }
 }
 
 SizePx buffer_size(SizePx screen, const KernelSetting& setting) {
-    return {reduced(screen.width, setting.sigma), reduced(screen.height, setting.sigma)};
+    return {reduced(screen.width, setting.sigma / setting.width_scale),
+            reduced(screen.height, setting.sigma / setting.height_scale)};
 }
 
 PointPx usable_gaze(SizePx screen, PointPx gaze) {
@@ -131,6 +145,7 @@ shared::KernelMap make_kernel_map(SizePx screen, PointPx gaze, const KernelSetti
             farthest = std::max(farthest, std::hypot(x - fovea.x, y - fovea.y));
         }
     }
+    farthest = std::max(farthest, std::exp(kLeastLogRadius));
     const SizePx reduced_size = buffer_size(screen, setting);
     std::array<float, 8> betas{};
     std::ranges::transform(setting.betas, betas.begin(),
@@ -140,8 +155,15 @@ shared::KernelMap make_kernel_map(SizePx screen, PointPx gaze, const KernelSetti
     map.screen_size = {static_cast<float>(screen.width), static_cast<float>(screen.height)};
     map.buffer_size = {static_cast<float>(reduced_size.width), static_cast<float>(reduced_size.height)};
     map.gaze = {static_cast<float>(fovea.x), static_cast<float>(fovea.y)};
-    map.log_max_radius = static_cast<float>(std::max(std::log(farthest), kLeastLogRadius));
+    map.log_max_radius = static_cast<float>(std::log(farthest));
     map.alpha = static_cast<float>(setting.alpha);
+    if (setting.kind == KernelKind::linear_mar) {
+        const double start = std::min(setting.mar_start * screen.width, 0.5 * farthest);
+        const double slope = setting.mar_slope / screen.width;
+        map.mar_slope = static_cast<float>(slope);
+        map.mar_start = static_cast<float>(start);
+        map.alpha = static_cast<float>(std::log1p(slope * (farthest - start)));
+    }
     map.kernel = number_of(setting.kind);
     map.as_printed = setting.as_printed ? 1 : 0;
     map.beta_low = {betas[0], betas[1], betas[2], betas[3]};

@@ -15,9 +15,11 @@ enum class KernelKind {
     polynomial,   // beta_1 x + beta_2 x^2 + ... (Meng et al. 2018, Eq. 9)
     sine,         // sin(x pi / 2)
     exponential,  // (e^x - 1) / (e - 1)
+    linear_mar,   // ln(1 + k (r - r0)): spacing grows linearly with distance; needs an inset of at least r0
 };
 
-// The names for protocols: "power", "polynomial", "sine" (or "sin"), "exponential" (or "exp").
+// The names for protocols: "power", "polynomial", "sine" (or "sin"), "exponential" (or "exp"),
+// "linear_mar".
 KernelKind kernel_kind_from_name(
     std::string_view name);  // throws std::runtime_error with the names there are
 const char* name_of(KernelKind kind);
@@ -28,6 +30,10 @@ struct KernelSetting {
     double sigma = 1.8;         // screen pixels per buffer texel along each side; 0.5 to 50
     double alpha = 4;           // exponent of the power kernel; 0.1 to 32
     std::vector<double> betas;  // coefficients of the polynomial kernel; 1 to 8, adding up to 1
+    double width_scale = 1;     // the buffer's columns, times this; 0.05 to 8
+    double height_scale = 1;    // and its rows: the published shape is 6 times too coarse around the corners
+    double mar_slope = 14;      // linear_mar: k per screen width; 1 to 200
+    double mar_start = 0.04;    // linear_mar: r0, share of the screen's width; 0 to 0.4
     bool as_printed = false;    // Eq. 10's direction instead of the one that the paper's figures show
 
     bool operator==(const KernelSetting&) const = default;
@@ -36,7 +42,7 @@ struct KernelSetting {
 // Throws std::runtime_error, one line, if a value is out of range or the polynomial does not rise on [0, 1].
 void check(const KernelSetting& setting);
 
-// round(W / sigma) x round(H / sigma), at least 1 x 1.
+// round(W width_scale / sigma) x round(H height_scale / sigma), at least 1 x 1.
 SizePx buffer_size(SizePx screen, const KernelSetting& setting);
 
 // The map for a screen and a gaze point anywhere. A gaze that is not a number or infinite counts as the

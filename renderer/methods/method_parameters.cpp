@@ -40,6 +40,10 @@ KernelSetting MethodParameters::kernel() {
     if (const auto name = word("kernel")) setting.kind = kernel_kind_from_name(*name);
     setting.sigma = number("sigma", setting.sigma);
     setting.alpha = number("alpha", setting.alpha);
+    setting.width_scale = number("width_scale", setting.width_scale);
+    setting.height_scale = number("height_scale", setting.height_scale);
+    setting.mar_slope = number("mar_slope", setting.mar_slope);
+    setting.mar_start = number("mar_start", setting.mar_start);
     setting.as_printed = flag("as_printed", setting.as_printed);
     for (int i = 1; i <= 8; ++i) {
         const std::string name = "beta_" + std::to_string(i);

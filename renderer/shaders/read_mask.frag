@@ -14,7 +14,10 @@ const int kMostPixels = 1024;
 
 // Whether the footprint of a pixel, widened by `reach` - 1 texels, holds the texel with this centre.
 bool reads(ivec2 pixel, vec2 texel, float reach) {
-    vec2 distance = buffer_from_screen(map, vec2(pixel) + 0.5) - texel;
+    vec2 position = vec2(pixel) + 0.5;
+    // Under the opaque part of the inset nothing is seen.
+    if (length(position - map.gaze) < map.inset_px - map.inset_rim_px - 0.01) return false;
+    vec2 distance = buffer_from_screen(map, position) - texel;
     distance.y -= map.buffer_size.y * floor(distance.y / map.buffer_size.y + 0.5);
     return abs(distance.x) < reach && abs(distance.y) < reach;
 }

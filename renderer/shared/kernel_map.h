@@ -18,6 +18,10 @@ const uint kKernelPower = 0u;        // x^alpha
 const uint kKernelPolynomial = 1u;   // beta_1 x + ... + beta_8 x^8, the betas adding up to 1 (Eq. 9)
 const uint kKernelSine = 2u;         // sin(x pi / 2)
 const uint kKernelExponential = 3u;  // (e^x - 1) / (e - 1)
+// ln(1 + k (r - r0)) over its value at the farthest corner: the samples' spacing grows linearly with the
+// distance, as the eye's smallest resolvable angle does; for a native inset of at least r0. Its x is not ln r
+// / L.
+const uint kKernelLinearMar = 4u;
 
 const float kMapPi = 3.14159265358979f;
 
@@ -27,13 +31,17 @@ struct KernelMap {
     vec2 buffer_size;      // w, h
     vec2 gaze;             // screen position of the fovea
     float log_max_radius;  // L, ln of the largest distance from the gaze to a screen corner (Eqs. 12, 13)
-    float alpha;           // exponent of kKernelPower
+    float alpha;           // exponent of kKernelPower; kKernelLinearMar: ln(1 + k (R - r0)), R = e^L
     uint kernel;           // one of the kKernel* constants
     uint as_printed;       // 1: Eq. 10's direction, 0: the author orientation
-    uint pad_0;
-    uint pad_1;
-    vec4 beta_low;   // beta_1 .. beta_4
-    vec4 beta_high;  // beta_5 .. beta_8
+    float inset_px;        // radius of the disc that is drawn at full resolution; 0: none
+    float inset_rim_px;    // the outer part of it that fades into the rest
+    vec4 beta_low;         // beta_1 .. beta_4
+    vec4 beta_high;        // beta_5 .. beta_8
+    float mar_slope;       // k of kKernelLinearMar, 1 / pixel
+    float mar_start;       // and r0, pixels
+    float pad_0;
+    float pad_1;
 };
 
 // arctan(x) for x in [0, 1], to 2e-8 (Abramowitz and Stegun 1964, 4.4.49). Vulkan lets atan() be off by 4096
@@ -126,14 +134,22 @@ SHARED_FUNCTION float turns_of(float x, float y) {
 SHARED_FUNCTION vec2 buffer_from_screen(KernelMap map, vec2 position) {
     float x = position.x - map.gaze.x;
     float y = position.y - map.gaze.y;
-    float radial = min(0.5f * log(max(x * x + y * y, 1.0f)) / map.log_max_radius, 1.0f);
-    float u = map.as_printed == 0u ? kernel(map, radial) : inverse_kernel(map, radial);
+    float squared = max(x * x + y * y, 1.0f);
+    float u = 0.0f;
+    if (map.kernel == kKernelLinearMar) {
+        u = min(log(1.0f + map.mar_slope * max(sqrt(squared) - map.mar_start, 0.0f)) / map.alpha, 1.0f);
+    } else {
+        float radial = min(0.5f * log(squared) / map.log_max_radius, 1.0f);
+        u = map.as_printed == 0u ? kernel(map, radial) : inverse_kernel(map, radial);
+    }
     return vec2(u * map.buffer_size.x, turns_of(x, y) * map.buffer_size.y);
 }
 
 // Distance from the gaze, in pixels, of buffer column position u (Algorithm 2).
 SHARED_FUNCTION float radius_of_column(KernelMap map, float u) {
     float radial = clamp(u / map.buffer_size.x, 0.0f, 1.0f);
+    if (map.kernel == kKernelLinearMar)
+        return map.mar_start + (exp(radial * map.alpha) - 1.0f) / map.mar_slope;
     return exp(map.log_max_radius *
                (map.as_printed == 0u ? inverse_kernel(map, radial) : kernel(map, radial)));
 }
@@ -159,7 +175,8 @@ SHARED_END
 static_assert(offsetof(parafovea::shared::KernelMap, gaze) == 16);
 static_assert(offsetof(parafovea::shared::KernelMap, kernel) == 32);
 static_assert(offsetof(parafovea::shared::KernelMap, beta_low) == 48);
-static_assert(sizeof(parafovea::shared::KernelMap) == 80);
+static_assert(offsetof(parafovea::shared::KernelMap, mar_slope) == 80);
+static_assert(sizeof(parafovea::shared::KernelMap) == 96);
 #endif
 
 #endif

@@ -26,8 +26,18 @@ struct Map {
     KernelSetting setting;
     Real log_radius;
 
-    Real w() const { return std::fmax(1.0L, std::floor(screen.width / Real{setting.sigma} + 0.5L)); }
-    Real h() const { return std::fmax(1.0L, std::floor(screen.height / Real{setting.sigma} + 0.5L)); }
+    Real w() const { return reduced(screen.width, setting.width_scale); }
+    Real h() const { return reduced(screen.height, setting.height_scale); }
+    Real reduced(int pixels, double scale) const {
+        return std::fmax(1.0L, std::floor(pixels / (Real{setting.sigma} / scale) + 0.5L));
+    }
+
+    // The linear-MAR kernel: u / w = ln(1 + k (r - r0)) / ln(1 + k (R - r0)).
+    Real mar_slope() const { return Real{setting.mar_slope} / screen.width; }
+    Real mar_start() const {
+        return std::fmin(Real{setting.mar_start} * screen.width, std::exp(log_radius) / 2);
+    }
+    Real mar_span() const { return std::log(1 + mar_slope() * (std::exp(log_radius) - mar_start())); }
 
     // Eqs. 12 and 13.
     Real farthest_log_radius() const {
@@ -52,6 +62,8 @@ struct Map {
                 return std::sin(x * std::numbers::pi_v<Real> / 2);
             case KernelKind::exponential:
                 return std::expm1(x) / std::expm1(Real{1});
+            case KernelKind::linear_mar:
+                break;
         }
         return 0;
     }
@@ -72,12 +84,19 @@ struct Map {
         const Real radial = std::fmin(std::log(r) / log_radius, 1.0L);
         Real theta = (x == 0 && y == 0) ? 0 : std::atan2(y, x);
         if (theta < 0) theta += 2 * std::numbers::pi_v<Real>;
-        return {(setting.as_printed ? inverse(radial) : forward(radial)) * w(),
-                theta / (2 * std::numbers::pi_v<Real>)*h()};
+        Real share = 0;
+        if (setting.kind == KernelKind::linear_mar)
+            share =
+                std::fmin(std::log(1 + mar_slope() * std::fmax(r - mar_start(), 0.0L)) / mar_span(), 1.0L);
+        else
+            share = setting.as_printed ? inverse(radial) : forward(radial);
+        return {share * w(), theta / (2 * std::numbers::pi_v<Real>)*h()};
     }
 
     Real radius(Real u) const {
         const Real radial = std::fmin(std::fmax(u / w(), 0.0L), 1.0L);
+        if (setting.kind == KernelKind::linear_mar)
+            return mar_start() + (std::exp(radial * mar_span()) - 1) / mar_slope();
         return std::exp(log_radius * (setting.as_printed ? forward(radial) : inverse(radial)));
     }
 

@@ -34,6 +34,12 @@ std::vector<KernelSetting> every_kernel() {
         settings.push_back({.kind = KernelKind::sine, .as_printed = as_printed});
         settings.push_back({.kind = KernelKind::exponential, .as_printed = as_printed});
     }
+    settings.push_back({.kind = KernelKind::linear_mar});
+    settings.push_back({.kind = KernelKind::linear_mar,
+                        .width_scale = 0.31,
+                        .height_scale = 1.4,
+                        .mar_slope = 40,
+                        .mar_start = 0});
     return settings;
 }
 
@@ -154,8 +160,8 @@ TEST(KernelMap, RoundTripReturnsToThePixel) {
         for (const KernelSetting& setting : every_kernel()) {
             SCOPED_TRACE(describe(place, setting));
             const KernelMap map = make_kernel_map(place.screen, place.gaze, setting);
-            for (const vec2 p : screen_points(place, 100)) {
-                if (std::hypot(p.x - place.gaze.x, p.y - place.gaze.y) < 1.5) continue;
+            for (const vec2 p : screen_points(place, 25)) {
+                if (std::hypot(p.x - place.gaze.x, p.y - place.gaze.y) < 1.5 + map.mar_start) continue;
                 if (p.x < 0 || p.y < 0 || p.x > map.screen_size.x || p.y > map.screen_size.y) continue;
                 const vec2 back = screen_from_buffer(map, buffer_from_screen(map, p));
                 // What a few units in the last place of u are worth here: much where the sine kernel is flat.
@@ -173,6 +179,7 @@ TEST(KernelMap, RoundTripReturnsToThePixel) {
 
 TEST(KernelMap, EveryKernelRisesFromZeroToOneAndItsInverseUndoesIt) {
     for (const KernelSetting& setting : every_kernel()) {
+        if (setting.kind == KernelKind::linear_mar) continue;  // not a function of ln r / L
         SCOPED_TRACE(describe({"", {}, {}}, setting));
         const KernelMap map = make_kernel_map({1280, 720}, {640, 360}, setting);
         EXPECT_NEAR(shared::kernel(map, 0.0f), 0, 1e-7);
@@ -217,6 +224,8 @@ TEST(KernelMap, AnglesGrowFromRightDownwards) {
 
 TEST(KernelMap, WithinOnePixelOfTheGazeIsColumnZero) {
     for (const KernelSetting& setting : every_kernel()) {
+        if (setting.kind == KernelKind::linear_mar && setting.mar_start == 0)
+            continue;  // begins at the gaze itself
         const KernelMap map = make_kernel_map({1280, 720}, {640.5, 360.5}, setting);
         for (const float distance : {0.0f, 0.25f, 0.5f, 0.999f}) {
             const vec2 p = buffer_from_screen(map, {640.5f - distance, 360.5f + distance * 1e-3f});
@@ -301,6 +310,10 @@ TEST(KernelSetting, RefusesWhatIsOutOfRangeInOneLine) {
     EXPECT_TRUE(refused({.kind = KernelKind::polynomial, .betas = {nan, 1}}));
     EXPECT_TRUE(refused({.kind = KernelKind::polynomial, .betas = {4, -7, 4}}));  // adds up to 1, but falls
     EXPECT_TRUE(refused({.kind = KernelKind::polynomial, .betas = std::vector<double>(9, 1.0 / 9)}));
+    EXPECT_TRUE(refused({.width_scale = 0}));
+    EXPECT_TRUE(refused({.height_scale = nan}));
+    EXPECT_TRUE(refused({.kind = KernelKind::linear_mar, .mar_slope = 0}));
+    EXPECT_TRUE(refused({.kind = KernelKind::linear_mar, .as_printed = true}));
     EXPECT_NO_THROW(check({.kind = KernelKind::polynomial, .betas = {0.25, 0.25, 0.5}}));
 }
 

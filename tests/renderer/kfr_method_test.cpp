@@ -49,13 +49,15 @@ std::vector<Case> culling_cases(SizePx size) {
           PointPx{0.3 * w + 0.1, 0.8 * h}, PointPx{-500, h / 2}, PointPx{w + 30, -20}, PointPx{1e6, 1e6}}) {
         cases.push_back({gaze, {}, {}});
     }
-    for (const double alpha : {0.5, 1.0, 16.0})
-        cases.push_back({{w / 2, h / 2}, {{"alpha", alpha}}, {}});
-    for (const double sigma : {0.7, 2.4, 20.0})
-        cases.push_back({{w / 3, h / 3}, {{"sigma", sigma}}, {}});
+    for (const double alpha : {0.5, 1.0, 16.0}) cases.push_back({{w / 2, h / 2}, {{"alpha", alpha}}, {}});
+    for (const double sigma : {0.7, 2.4, 20.0}) cases.push_back({{w / 3, h / 3}, {{"sigma", sigma}}, {}});
     cases.push_back({{w / 2, h / 2}, {{"as_printed", 1}}, {}});
     cases.push_back({{10, 10}, {{"as_printed", 1}, {"alpha", 2}}, {}});
     cases.push_back({{w / 2, h / 2}, {}, {{"kernel", "sine"}}});
+    cases.push_back({{w / 2, h / 3}, {{"inset", 0.1}}, {}});
+    cases.push_back({{0, h}, {{"inset", 0.3}, {"width_scale", 0.3}, {"height_scale", 1.3}}, {}});
+    cases.push_back({{w / 2, h / 2}, {}, {{"kernel", "linear_mar"}}});
+    cases.push_back({{w, h / 2}, {{"mar_start", 0.2}, {"mar_slope", 5}}, {{"kernel", "linear_mar"}}});
     cases.push_back({{w / 2, h / 2}, {}, {{"kernel", "exponential"}}});
     cases.push_back({{w / 2, h / 2}, {{"beta_1", 0.25}, {"beta_3", 0.75}}, {{"kernel", "polynomial"}}});
     return cases;
@@ -189,6 +191,47 @@ TEST(KfrMethod, DetailIsLostAwayFromTheGazeAndFollowsIt) {
         const Image found = foveated.draw(kfr(), gaze);
         EXPECT_LT(1.5 * error_at(found, gaze), error_at(found, away));
     }
+}
+
+TEST(KfrMethod, InsetIsFullResolutionWhereverItLies) {
+    Gpu gpu({.validation = true});
+    const SizePx size{320, 180};
+    const Image picture = noise_picture(size);
+    PictureMethod full(gpu, picture, "full");
+    PictureMethod foveated(gpu, picture, "kfr");
+    const Image reference = full.draw({}, {});
+    for (const PointPx gaze : {centre_of(size), PointPx{5, 170}, PointPx{319.5, 0.5}, PointPx{-20, 90}}) {
+        for (const char* kernel : {"power", "linear_mar"}) {
+            const Image found = foveated.draw(kfr({{"inset", 0.1}}, {{"kernel", kernel}}), gaze);
+            EXPECT_LE(largest_difference(reference, found, gaze, 0, 32 - 8), 0);
+            EXPECT_GT(largest_difference(reference, found, gaze, 40, 1e9), 20);
+        }
+    }
+    EXPECT_TRUE(gpu.validation_messages().empty());
+}
+
+TEST(KfrMethod, InsetSavesTheTexelsBelowIt) {
+    Gpu gpu;
+    const SizePx size{1280, 720};
+    PictureMethod method(gpu, smooth_picture(size), "kfr");
+    method.draw(kfr(), centre_of(size));
+    const std::uint64_t without = method.statistics().shaded_samples;
+    method.draw(kfr({{"inset", 0.07}}), centre_of(size));
+    EXPECT_LT(method.statistics().shaded_samples, without);
+}
+
+TEST(KfrMethod, SettingsThatTakeTurnsKeepTheirPictures) {
+    Gpu gpu({.validation = true});
+    const SizePx size{200, 120};
+    PictureMethod method(gpu, noise_picture(size), "kfr");
+    std::vector<RenderMethod> settings;
+    for (int i = 0; i < 12; ++i) settings.push_back(kfr({{"sigma", 1.2 + 0.1 * i}, {"alpha", 1.0 + i % 4}}));
+    std::vector<Image> first;
+    for (const RenderMethod& setting : settings) first.push_back(method.draw(setting, {60, 60}));
+    for (std::size_t i = 0; i < settings.size(); ++i) {
+        EXPECT_TRUE(method.draw(settings[i], {60, 60}) == first[i]) << i;
+    }
+    EXPECT_TRUE(gpu.validation_messages().empty());
 }
 
 TEST(KfrMethod, GazeThatIsNoNumberIsTheCentre) {

@@ -1,0 +1,84 @@
+// Makes the images and sets of kernel foveated rendering.
+#include "renderer/methods/kfr_targets.h"
+
+#include <algorithm>
+
+namespace parafovea {
+namespace {
+
+constexpr float kLargestRimPx = 8;
+
+constexpr Binding kMapBinding{0, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER};
+constexpr Binding kFirstImage{0, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER};
+constexpr Binding kSecondImage{1, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER};
+
+GpuImage image_of(Gpu& gpu, SizePx size, VkFormat format, VkImageUsageFlags usage) {
+    return GpuImage(gpu, {.format = format,
+                          .width = static_cast<std::uint32_t>(size.width),
+                          .height = static_cast<std::uint32_t>(size.height),
+                          .usage = usage});
+}
+
+}  // namespace
+
+KfrTargets::KfrTargets(Gpu& gpu, const KfrFormats& formats, const KfrSetting& wanted, SizePx wanted_screen)
+    : setting(wanted),
+      screen(wanted_screen),
+      buffer(buffer_size(wanted_screen, wanted.kernel)),
+      map(gpu, sizeof(shared::KernelMap), VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT, BufferPlace::upload),
+      sampler(make_sampler(gpu, {.filter = formats.exact_bilinear ? VK_FILTER_NEAREST : VK_FILTER_LINEAR,
+                                 .mipmap = VK_SAMPLER_MIPMAP_MODE_NEAREST,
+                                 .address_u = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
+                                 .address_v = VK_SAMPLER_ADDRESS_MODE_REPEAT})),
+      map_set(gpu, {kMapBinding}),
+      reduced_set(gpu, {kFirstImage}),
+      resample_set(gpu, {kMapBinding, kSecondImage}),
+      post_set(gpu, {kMapBinding, kSecondImage}) {
+    const VkImageUsageFlags drawn = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
+    reduced = image_of(gpu, buffer, formats.reduced,
+                       drawn | VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT);
+    if (setting.internal_filter) {
+        filtered = image_of(gpu, buffer, formats.reduced, drawn | VK_IMAGE_USAGE_TRANSFER_SRC_BIT);
+    }
+    if (setting.culling) {
+        mask = image_of(gpu, buffer, kKfrMaskFormat, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT);
+    }
+    if (setting.post_filter) {
+        screen_linear = image_of(gpu, screen, kKfrScreenFormat, drawn | VK_IMAGE_USAGE_SAMPLED_BIT);
+        post_set.set_sampled_image(1, screen_linear.view(), sampler.get());
+    }
+    map_set.set_buffer(0, map);
+    reduced_set.set_sampled_image(0, reduced.view(), sampler.get());
+    resample_set.set_buffer(0, map);
+    resample_set.set_sampled_image(1, reduced.view(), sampler.get());
+    post_set.set_buffer(0, map);
+
+    VkQueryPoolCreateInfo info{VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO};
+    info.queryType = VK_QUERY_TYPE_OCCLUSION;
+    info.queryCount = 2;
+    VkQueryPool queries = VK_NULL_HANDLE;
+    check_vulkan(vkCreateQueryPool(gpu.device(), &info, nullptr, &queries), "creating a sample counter");
+    counts = {gpu.device(), queries};
+}
+
+void KfrTargets::set_gaze(PointPx wanted) {
+    if (has_gaze_ && wanted == gaze) return;
+    gaze = wanted;
+    has_gaze_ = true;
+    mask_stale = true;
+    shared::KernelMap block = make_kernel_map(screen, gaze, setting.kernel);
+    block.inset_px = static_cast<float>(setting.inset * screen.width);
+    block.inset_rim_px = std::min(kLargestRimPx, 0.5f * block.inset_px);
+    map.write(block);
+}
+
+KfrLayouts::KfrLayouts(Gpu& gpu, VkDescriptorSetLayout shading_layout)
+    : map_set(gpu, {kMapBinding}),
+      reduced_set(gpu, {kFirstImage}),
+      map_and_image_set(gpu, {kMapBinding, kSecondImage}),
+      mask(make_pipeline_layout(gpu, {map_set.layout()})),
+      shading(make_pipeline_layout(gpu, {shading_layout, map_set.layout()})),
+      filter(make_pipeline_layout(gpu, {reduced_set.layout()})),
+      resample(make_pipeline_layout(gpu, {map_and_image_set.layout()})) {}
+
+}  // namespace parafovea

@@ -1,0 +1,77 @@
+// What kernel foveated rendering keeps for one setting on one screen: the map, the reduced buffer and its
+// mask.
+#pragma once
+
+#include "renderer/kernel_setting.h"
+#include "renderer/methods/foveation_method.h"
+
+namespace parafovea {
+
+struct KfrSetting {
+    KernelSetting kernel;
+    bool culling = true;          // shade only texels that are read
+    bool internal_filter = true;  // 3x3 Gaussian over the peripheral half of the buffer
+    bool post_filter = false;     // Eq. 14 on the screen
+    int post_filter_cap = 11;     // its largest width in pixels, odd
+    double inset = 0;  // radius of the disc at full resolution, share of the screen's width; 0: none
+
+    bool operator==(const KfrSetting&) const = default;
+};
+
+// How the result is stored.
+struct KfrFormats {
+    VkFormat target = VK_FORMAT_R8G8B8A8_SRGB;
+    VkFormat reduced =
+        VK_FORMAT_R16G16B16A16_UNORM;  // display-linear values in [0, 1]; finer than halves near 1
+    bool exact_bilinear = false;  // Pass II interpolates with full float weights instead of the sampler's
+};
+
+inline constexpr VkFormat kKfrMaskFormat = VK_FORMAT_D16_UNORM;
+inline constexpr VkFormat kKfrScreenFormat = VK_FORMAT_R16G16B16A16_SFLOAT;
+
+class KfrTargets {
+  public:
+    KfrTargets(Gpu& gpu, const KfrFormats& formats, const KfrSetting& setting, SizePx screen);
+
+    bool serves(const KfrSetting& wanted, SizePx wanted_screen) const {
+        return wanted == setting && wanted_screen == screen;
+    }
+    void set_gaze(PointPx wanted);  // writes the map if the gaze is another
+
+    KfrSetting setting;
+    SizePx screen;
+    SizePx buffer;
+    PointPx gaze;
+    bool mask_stale = true;
+    bool fresh = true;  // the images have never been written
+
+    GpuBuffer map;
+    GpuImage mask;           // depth 1 where a texel is needed, else 0; with culling
+    GpuImage reduced;        // what Pass I shades and Pass II reads
+    GpuImage filtered;       // the internal filter's result, then copied to `reduced`
+    GpuImage screen_linear;  // Pass II's result for the post filter
+    OwnedQueryPool counts;   // 0: texels needed, 1: pixels of the inset
+    OwnedSampler sampler;
+    DescriptorSet map_set;       // 0: map
+    DescriptorSet reduced_set;   // 0: reduced
+    DescriptorSet resample_set;  // 0: map, 1: reduced
+    DescriptorSet post_set;      // 0: map, 1: screen_linear
+
+  private:
+    bool has_gaze_ = false;
+};
+
+// The layouts of the sets above, the same for all targets, for building pipelines.
+struct KfrLayouts {
+    KfrLayouts(Gpu& gpu, VkDescriptorSetLayout shading);
+
+    DescriptorSet map_set;
+    DescriptorSet reduced_set;
+    DescriptorSet map_and_image_set;
+    OwnedPipelineLayout mask;
+    OwnedPipelineLayout shading;
+    OwnedPipelineLayout filter;
+    OwnedPipelineLayout resample;  // and post
+};
+
+}  // namespace parafovea
