@@ -196,38 +196,38 @@ vec3 shade_sample(vec2 position_px, vec2 spacing_px) {
         }
     }
 
-    // Light what lies behind.
-    vec2 behind_px = vec2(behind_at) + 0.5;
-    float depth = texelFetch(depth_image, behind_at, 0).r;
-    vec3 radiance;
-    if (depth <= 0.0) {
-        radiance = sky_with_sun(normalize(ray_at(behind_px)));
-    } else {
-        vec3 ray = ray_at(behind_px);
-        vec3 point = camera.eye.xyz + ray * (camera.eye.w / depth);
-        uvec4 words = texelFetch(gbuffer, behind_at, 0);
-        Sample s = sample_of(words);
-        if (kEmission == 1u) {
-            s.emitted = unpacked_radiance(words.z);
-            s.occlusion = float(words.w & 0xffu) * (1.0 / 255.0);
-        }
-        s.surface.roughness = widened_roughness(s.surface.roughness, s.surface.normal, behind_at, reach_px);
-        radiance = lit(s, point, normalize(-ray));
-    }
-
-    // Lay the blended surface over it: what it lets through, then its own light; its mirror light is not thinned.
-    if (kBlend == 1u && glass_depth > 0.0) {
-        vec3 ray = ray_at(vec2(at) + 0.5);
-        vec3 point = camera.eye.xyz + ray * (camera.eye.w / glass_depth);
-        Sample s = sample_of(glass_words);
-        s.emitted = unpacked_radiance(glass_words.z);
-        vec3 tint = mix(vec3(1.0), s.surface.base_color, glass.z);
-        float covers = glass.y * (1.0 - glass.z);
+    // Light what lies behind, then lay the blended surface over it: what it lets through, then its own light; its mirror
+    // light is not thinned. One loop whose test stands last, so that where nothing blends it is left after one turn even on
+    // devices that would run both sides of a branch.
+    vec3 radiance = vec3(0.0);
+    uint layer = 0u;
+    bool another = false;
+    do {
+        bool front = layer == 1u;
+        ivec2 here = front ? at : behind_at;
+        float depth = front ? glass_depth : texelFetch(depth_image, behind_at, 0).r;
+        uvec4 words = front ? glass_words : texelFetch(gbuffer, behind_at, 0);
+        vec3 ray = ray_at(vec2(here) + 0.5);
+        vec3 point = camera.eye.xyz + ray * (camera.eye.w / max(depth, 1e-7));
         vec3 to_eye = normalize(-ray);
-        if (dot(s.surface.normal, to_eye) < 0.0) s.surface.normal = -s.surface.normal;
-        s.surface.base_color *= covers;
-        radiance = radiance * tint * (1.0 - covers) + lit(s, point, to_eye);
-    }
+        Sample s = sample_of(words);
+        if (kEmission == 1u || front) s.emitted = unpacked_radiance(words.z);
+        if (kEmission == 1u && !front) s.occlusion = float(words.w & 0xffu) * (1.0 / 255.0);
+        vec3 lets_through = vec3(0.0);
+        if (front) {
+            float covers = glass.y * (1.0 - glass.z);
+            lets_through = mix(vec3(1.0), s.surface.base_color, glass.z) * (1.0 - covers);
+            s.surface.base_color *= covers;
+            if (dot(s.surface.normal, to_eye) < 0.0) s.surface.normal = -s.surface.normal;
+        } else {
+            s.surface.roughness = widened_roughness(s.surface.roughness, s.surface.normal, here, reach_px);
+        }
+        vec3 light = lit(s, point, to_eye);
+        if (depth <= 0.0) light = sky_with_sun(normalize(ray));
+        radiance = radiance * lets_through + light;
+        ++layer;
+        another = kBlend == 1u && layer == 1u && glass_depth > 0.0;
+    } while (another);
     return tone_mapped(radiance);
 }
 
