@@ -57,9 +57,10 @@ std::string figure_script(const std::filesystem::path& stem, const FigureSize& s
     draw("set terminal pdfcairo size " + size_cm +
              " enhanced font 'DejaVu Sans,8' linewidth 1.4 fontscale 1.0",
          ".pdf");
-    draw("set terminal pngcairo size " + fixed_text(size.width_cm * 100.0, 0) + "," +
-             fixed_text(size.height_cm * 100.0, 0) +
-             " enhanced font 'DejaVu Sans,12' fontscale 1.75 linewidth 2.4 pointscale 2",
+    constexpr double kPngPixelsPerCm = 120.0;  // 305 dpi; letters, lines and points below are sized for it
+    draw("set terminal pngcairo size " + fixed_text(size.width_cm * kPngPixelsPerCm, 0) + "," +
+             fixed_text(size.height_cm * kPngPixelsPerCm, 0) +
+             " enhanced font 'DejaVu Sans,12' fontscale 2.1 linewidth 2.9 pointscale 2.4",
          ".png");
     return script;
 }

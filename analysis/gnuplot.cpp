@@ -51,8 +51,9 @@ void run_gnuplot(const std::string& script) {
     posix_spawn_file_actions_adddup2(&actions, input, STDIN_FILENO);
     posix_spawn_file_actions_adddup2(&actions, errors, STDOUT_FILENO);
     posix_spawn_file_actions_adddup2(&actions, errors, STDERR_FILENO);
-    std::string program = "gnuplot", defaults = "--default-settings", from_input = "-";
-    char* arguments[] = {program.data(), defaults.data(), from_input.data(), nullptr};
+    // By its name, not as "-": gnuplot reads "-" one byte at a time.
+    std::string program = "gnuplot", defaults = "--default-settings", script_file = "/dev/stdin";
+    char* arguments[] = {program.data(), defaults.data(), script_file.data(), nullptr};
     pid_t child = 0;
     const int failure = posix_spawnp(&child, "gnuplot", &actions, nullptr, arguments, environ);
     posix_spawn_file_actions_destroy(&actions);

@@ -1,6 +1,7 @@
 // The way in for programs: responses in, every figure, table and report file out.
 #include "analysis/write_analysis.h"
 
+#include <future>
 #include <stdexcept>
 
 #include "analysis/condition_figure.h"
@@ -34,38 +35,9 @@ struct Figure {
     std::string description;  // for readers who cannot see it
 };
 
-}  // namespace
-
-AnalysisFiles write_analysis(const StudyTally& tallies, const StudyDescription& study,
-                             const StudyRecordings& recordings, const std::filesystem::path& out) {
-    const Tally& tally = tallies.with_exclusions();
-    require_answers(tally);
-    make_output_folder(out);
-
-    // Compute every result.
-    StudyResults results;
-    results.conditions = condition_rows(tally);
-    results.cochran = cochran_table(tally, study.analysis_seed);
-    results.psychometric = psychometric_results(tally, study.identical_criterion, study.analysis_seed);
-    results.decision =
-        decide(tally, study.identical_criterion, study.non_inferiority_margin, 4000, study.analysis_seed);
-    results.effects = sigma_effects(tally);
-    results.sensitivity = sensitivity_rows(tally, results.conditions);
-    results.validation = validation_rows(tally);
-    results.response_times = response_time_rows(tally, results.conditions);
-    if (tally.excluded() > 0) results.without_exclusions = condition_rows(tallies.all_answers());
-    results.warnings = find_warnings(tally, study, results.conditions, results.cochran, results.validation);
-
-    AnalysisFiles files;
-    files.table1 = cochran_text(results.cochran, study.title, study.data_origin);
-    const auto write = [&](const std::string& name, const std::string& text) {
-        write_text_file(out / name, text);
-        files.written.push_back(out / name);
-        return out / name;
-    };
-
-    // Draw the figures, all at once.
-    const std::string main_figure = study.is_pilot ? "figure9" : "figure10";
+std::vector<Figure> figures_of(const Tally& tally, const StudyDescription& study,
+                               const StudyRecordings& recordings, const StudyResults& results,
+                               const std::string& main_figure, const std::filesystem::path& out) {
     std::vector<Figure> figures;
     figures.push_back(
         {main_figure,
@@ -86,7 +58,46 @@ AnalysisFiles write_analysis(const StudyTally& tallies, const StudyDescription& 
         figures.push_back({"timing", timing_figure_script(*recordings.frames, study, out / "timing"),
                            "Histogram of the time from one frame to the next."});
     std::erase_if(figures, [](const Figure& figure) { return figure.script.empty(); });
-    parallel_for(figures.size(), [&](std::size_t i) { run_gnuplot(figures[i].script); });
+    return figures;
+}
+
+}  // namespace
+
+AnalysisFiles write_analysis(const StudyTally& tallies, const StudyDescription& study,
+                             const StudyRecordings& recordings, const std::filesystem::path& out) {
+    const Tally& tally = tallies.with_exclusions();
+    require_answers(tally);
+    make_output_folder(out);
+
+    // Start on the figures, which take longest, as soon as their numbers stand.
+    StudyResults results;
+    results.conditions = condition_rows(tally);
+    results.psychometric = psychometric_results(tally, study.identical_criterion, study.analysis_seed);
+    const std::string main_figure = study.is_pilot ? "figure9" : "figure10";
+    const std::vector<Figure> figures = figures_of(tally, study, recordings, results, main_figure, out);
+    std::future<void> drawn = std::async(std::launch::async, [&] {
+        parallel_for(figures.size(), [&](std::size_t i) { run_gnuplot(figures[i].script); });
+    });
+
+    // Compute every other result meanwhile.
+    results.cochran = cochran_table(tally, study.analysis_seed);
+    results.decision =
+        decide(tally, study.identical_criterion, study.non_inferiority_margin, 4000, study.analysis_seed);
+    results.effects = sigma_effects(tally);
+    results.sensitivity = sensitivity_rows(tally, results.conditions);
+    results.validation = validation_rows(tally);
+    results.response_times = response_time_rows(tally, results.conditions);
+    if (tally.excluded() > 0) results.without_exclusions = condition_rows(tallies.all_answers());
+    results.warnings = find_warnings(tally, study, results.conditions, results.cochran, results.validation);
+
+    AnalysisFiles files;
+    files.table1 = cochran_text(results.cochran, study.title, study.data_origin);
+    const auto write = [&](const std::string& name, const std::string& text) {
+        write_text_file(out / name, text);
+        files.written.push_back(out / name);
+        return out / name;
+    };
+    drawn.get();
     for (const Figure& figure : figures) {
         for (const auto& file : figure_files(out / figure.name)) files.written.push_back(file);
         results.figures.push_back({figure.name, inline_svg(figure_files(out / figure.name).front(),
