@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 #include <cassert>
+#include <cmath>
 #include <numeric>
 #include <vector>
 
@@ -14,7 +15,17 @@ namespace {
 
 constexpr std::size_t kMostColumns = 20;
 constexpr std::int64_t kMostStates = 4'000'000;
+constexpr double kSettledMargin = 1e-6;  // of a deviation, well above rounding
 constexpr std::int64_t kMostDrawnCells = 16'000'000;
+
+// Distance of k totals from their mean, given the sum of their squares and their sum.
+double deviation(std::int64_t squares, double sum, std::size_t k) {
+    return std::sqrt(std::max(0.0, static_cast<double>(squares) - sum * sum / static_cast<double>(k)));
+}
+
+double deviation_of_row(std::size_t ones, std::size_t k) {
+    return std::sqrt(static_cast<double>(ones * (k - ones)) / static_cast<double>(k));
+}
 
 // One way to add a row of ones to sorted totals: which positions grow, and how many arrangements of the row
 // do just that.
@@ -110,6 +121,30 @@ std::optional<ArrangementShares> enumerate_column_totals(std::span<const std::in
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::sort(order.begin(), order.end(),
               [&](std::size_t a, std::size_t b) { return std::min(a, k - a) < std::min(b, k - b); });
+    // A row moves the totals' deviation from their mean by sqrt(ones (k - ones) / k). By the triangle
+    // inequality a state too far out, or too far in, for the rows left to matter is settled at once.
+    double reach = 0.0;
+    std::int64_t ones_left = 0;
+    for (std::size_t ones = 0; ones <= k; ++ones) {
+        reach += static_cast<double>(rows_with_total[ones]) * deviation_of_row(ones, k);
+        ones_left += rows_with_total[ones] * static_cast<std::int64_t>(ones);
+    }
+    const double all_ones = static_cast<double>(ones_left), wanted = deviation(observed, all_ones, k);
+    // How much sum C_j^2 grows on average over the rows left: (C + x)^2 - C^2 = 2 C x + x, x being 1 in a
+    // share ones / k of the cells.
+    double growth = 0.0, placed = 0.0;
+    const auto row_growth = [&](std::size_t ones) {
+        const double r = static_cast<double>(ones);
+        return 2.0 * r / static_cast<double>(k) * placed + r;
+    };
+    for (std::size_t ones : order)
+        for (std::int64_t repeat = 0; repeat < rows_with_total[ones]; ++repeat) {
+            growth += row_growth(ones);
+            placed += static_cast<double>(ones);
+        }
+    placed = 0.0;
+
+    ArrangementShares result;
     std::int64_t work = 0;
     for (std::size_t ones : order) {
         if (rows_with_total[ones] == 0 || ones == 0) continue;
@@ -122,6 +157,15 @@ std::optional<ArrangementShares> enumerate_column_totals(std::span<const std::in
                 const std::size_t rank = rank_of[state];
                 const double weight = share[rank];
                 share[rank] = 0.0;
+                std::int64_t squares = 0;
+                for (std::size_t j = 0; j < k; ++j) squares += std::int64_t{c[j]} * c[j];
+                const double now = deviation(squares, placed, k);
+                const bool above = now - reach > wanted + kSettledMargin;
+                if (above || now + reach < wanted - kSettledMargin) {
+                    result.mean += weight * (static_cast<double>(squares) + growth);
+                    if (above) result.at_least += weight;
+                    continue;
+                }
                 std::int64_t step[kMostColumns];
                 std::uint32_t ties = 0;
                 for (int j = 0; j < columns; ++j) {
@@ -150,10 +194,12 @@ std::optional<ArrangementShares> enumerate_column_totals(std::span<const std::in
             share.swap(next_share);
             totals.swap(next_totals);
             rank_of.swap(next_rank_of);
+            growth -= row_growth(ones);
+            placed += static_cast<double>(ones);
+            reach -= deviation_of_row(ones, k);
         }
     }
 
-    ArrangementShares result;
     for (std::size_t state = 0; state < rank_of.size(); ++state) {
         std::int64_t squares = 0;
         for (std::size_t j = 0; j < k; ++j)
