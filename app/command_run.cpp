@@ -19,12 +19,20 @@ RunCommand::RunCommand(CLI::App& program) {
         ->required();
     command->add_option("--data", data_, "Folder for the session file")->capture_default_str();
     command->add_option("--display", display_, "Where the pictures are shown")
-        ->check(CLI::IsMember({"headless"}))
+        ->check(CLI::IsMember({"window", "headless"}))
         ->capture_default_str();
-    command->add_option("--gaze", gaze_, "Eye tracker: simulated, replay:FILE")->capture_default_str();
-    command->add_option("--controller", controller_, "Answers: simulated")->capture_default_str();
+    command->add_option("--gaze", gaze_,
+                        "Eye tracker: hid, fove, gazepoint, mouse, simulated, replay:FILE; mouse in a "
+                        "window, else simulated, if absent");
+    command->add_option("--controller", controller_,
+                        "Answers: auto, evdev, hidapi, libusb, gamepad, keyboard, simulated; auto in a "
+                        "window, else simulated, if absent");
     command->add_option("--seed", seed_, "Seed of every random draw; drawn and stored if absent");
     command->add_flag("--resume", resume_, "Go on with the participant's latest session of this study");
+    command->add_option("--monitor", monitor_, "Which monitor shows the window, from 0")
+        ->capture_default_str();
+    command->add_flag("--full-screen", full_screen_, "The window takes the whole monitor");
+    command->add_flag("--no-console", no_console_, "No operator's console beside the participant's window");
     command->add_flag("--quiet", quiet_, "No progress");
     command->callback([this] { run(); });
 }
@@ -33,13 +41,16 @@ void RunCommand::run() const {
     std::stop_source stop;
     const StopOnSignal stop_on_signal(stop);
 
-    const LiveSessionRequest request{protocol_, participant_, data_, display_,
-                                     gaze_,     controller_,  seed_, resume_};
+    const bool window = display_ == "window";
+    const std::string gaze = !gaze_.empty() ? gaze_ : window ? "mouse" : "simulated";
+    const std::string controller = !controller_.empty() ? controller_ : window ? "auto" : "simulated";
+    const LiveSessionRequest request{protocol_, participant_, data_,    display_,     gaze,        controller,
+                                     seed_,     resume_,      monitor_, full_screen_, !no_console_};
     const int trials = static_cast<int>(make_plan(load_protocol(protocol_), 0, 0).trials.size());
     LiveSessionOutcome outcome;
     {
         Progress bar("trial", trials, quiet_);
-        outcome = run_live_session(request, stop.get_token(), [&](const SessionProgress& progress) {
+        outcome = run_live_session(request, stop, [&](const SessionProgress& progress) {
             bar.update(progress.done, progress.next ? to_text(progress.next->reference_interval == 0
                                                                   ? progress.next->second
                                                                   : progress.next->first) +

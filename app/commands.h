@@ -19,11 +19,28 @@ class RunCommand {
   private:
     void run() const;
 
-    std::string protocol_, participant_, data_ = "sessions", display_ = "headless", gaze_ = "simulated",
-                                         controller_ = "simulated";
+    std::string protocol_, participant_, data_ = "sessions", display_ = "window", gaze_, controller_;
     std::optional<std::uint64_t> seed_;
     bool resume_ = false;
+    int monitor_ = 0;
+    bool full_screen_ = false, no_console_ = false;
     bool quiet_ = false;
+};
+
+class ReplayCommand {
+  public:
+    explicit ReplayCommand(CLI::App& program);
+
+  private:
+    void run() const;
+
+    std::string session_, out_;
+    bool verify_ = false, quiet_ = false;
+};
+
+class DevicesCommand {
+  public:
+    explicit DevicesCommand(CLI::App& program);
 };
 
 class PlanCommand {

@@ -11,6 +11,7 @@ int main(int argc, char** argv) {
     program.require_subcommand(1);
 
     const parafovea::RunCommand run(program);
+    const parafovea::ReplayCommand replay(program);
     const parafovea::SimulateCommand simulate(program);
     const parafovea::AnalyzeCommand analyze(program);
     const parafovea::ExportCommand export_data(program);
@@ -19,6 +20,7 @@ int main(int argc, char** argv) {
     const parafovea::CheckCommand check(program);
     const parafovea::RenderCommand render(program);
     const parafovea::FoveateCommand foveate(program);
+    const parafovea::DevicesCommand devices(program);
     const parafovea::BenchCommand bench(program);
     const parafovea::ScenesCommand scenes(program);
     const parafovea::WithdrawCommand withdraw(program);

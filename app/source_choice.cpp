@@ -3,9 +3,18 @@
 
 #include <stdexcept>
 #include <string_view>
+#include <type_traits>
+#include <utility>
 
+#include "app/window_input.h"
+#include "devices/fove/fove_gaze.h"
 #include "devices/gaze_recording.h"
+#include "devices/gazepoint/gazepoint_gaze.h"
+#include "devices/hid/hid_gaze.h"
 #include "devices/replay_gaze.h"
+#include "devices/xbox/bluetooth_pad.h"
+#include "devices/xbox/evdev_controller.h"
+#include "devices/xbox/usb_pad.h"
 
 namespace parafovea {
 
@@ -13,22 +22,54 @@ namespace {
 
 constexpr std::string_view kReplay = "replay:";
 
+template <typename Source>
+auto owned(std::unique_ptr<Source> source) {
+    using Seam = std::conditional_t<std::is_base_of_v<GazeSource, Source>, GazeSource, ControllerSource>;
+    Seam* seam = source.get();
+    return ChosenSource<Seam>{std::move(source), seam};
+}
+
+ChosenSource<ControllerSource> first_controller(const SourceParts& parts) {
+    std::string reasons;
+    for (const char* name : {"evdev", "hidapi", "libusb"}) {
+        try {
+            return choose_controller(name, parts);
+        } catch (const std::runtime_error& reason) {
+            reasons += std::string(reasons.empty() ? "" : "; ") + reason.what();
+        }
+    }
+    if (parts.input) return {nullptr, &parts.input->keyboard()};
+    throw std::runtime_error("--controller auto: found none: " + reasons);
+}
+
 }  // namespace
 
 ChosenSource<GazeSource> choose_gaze(const std::string& name, const SourceParts& parts) {
     if (name == "simulated") return {nullptr, &parts.person.tracker()};
-    if (name.starts_with(kReplay)) {
-        auto replay = std::make_unique<ReplayGaze>(
-            parts.clock, read_gaze_recording(name.substr(kReplay.size())), ReplayOptions{.repeat = true});
-        GazeSource* source = replay.get();
-        return {std::move(replay), source};
-    }
-    throw std::runtime_error("--gaze " + name + ": expected simulated or replay:FILE");
+    if (name == "mouse" && parts.input) return {nullptr, &parts.input->mouse()};
+    if (name == "hid") return owned(std::make_unique<HidGaze>(parts.clock));
+    if (name == "fove") return owned(std::make_unique<FoveGaze>(parts.clock));
+    if (name == "gazepoint") return owned(std::make_unique<GazepointGaze>(parts.clock));
+    if (name.starts_with(kReplay))
+        return owned(std::make_unique<ReplayGaze>(
+            parts.clock, read_gaze_recording(name.substr(kReplay.size())), ReplayOptions{.repeat = true}));
+    throw std::runtime_error(
+        "--gaze " + name +
+        ": expected hid, fove, gazepoint, simulated, replay:FILE, or mouse with --display "
+        "window");
 }
 
 ChosenSource<ControllerSource> choose_controller(const std::string& name, const SourceParts& parts) {
     if (name == "simulated") return {nullptr, &parts.person.hand()};
-    throw std::runtime_error("--controller " + name + ": expected simulated");
+    if (name == "keyboard" && parts.input) return {nullptr, &parts.input->keyboard()};
+    if (name == "gamepad" && parts.input) return {nullptr, &parts.input->gamepad()};
+    if (name == "evdev") return owned(std::make_unique<EvdevController>(parts.clock));
+    if (name == "hidapi") return owned(std::make_unique<BluetoothPad>(parts.clock));
+    if (name == "libusb") return owned(std::make_unique<UsbPad>(parts.clock));
+    if (name == "auto") return first_controller(parts);
+    throw std::runtime_error("--controller " + name +
+                             ": expected auto, evdev, hidapi, libusb, simulated, or keyboard or gamepad with "
+                             "--display window");
 }
 
 bool gaze_keeps_any_clock(const std::string& name) {

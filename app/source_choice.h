@@ -12,10 +12,13 @@
 
 namespace parafovea {
 
+class WindowInput;
+
 // What sources are made from; all is borrowed.
 struct SourceParts {
     Clock& clock;
     SimulatedPerson& person;
+    WindowInput* input = nullptr;  // of the participant's window, where there is one
 };
 
 // A source that is owned here, or that belongs to the parts.
@@ -29,7 +32,8 @@ struct ChosenSource {
 // std::runtime_error with one line for another name and where the source cannot be opened.
 ChosenSource<GazeSource> choose_gaze(const std::string& name, const SourceParts& parts);
 
-// "simulated". Throws like choose_gaze.
+// "evdev", "hidapi", "libusb", "simulated"; "keyboard" and "gamepad", in a window; or "auto": the first pad
+// of these that is there, else the keyboard. Throws like choose_gaze.
 ChosenSource<ControllerSource> choose_controller(const std::string& name, const SourceParts& parts);
 
 // Whether a source of this name lives on whatever clock it is given, a simulated one too.
