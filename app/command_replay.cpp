@@ -104,13 +104,15 @@ void ReplayCommand::run() const {
     Progress bar("showing", static_cast<int>(rows.trials.size()), quiet_);
     const ReplayReport report = replay_session(
         session_,
-        [&](const Picture& picture, const ShownFrame&) {
+        [&](const Picture& picture, const ShownFrame& recorded) -> std::optional<std::uint64_t> {
             if (window) {
                 window->stage.show(picture);
                 window->system.wait_for_events(0);
                 if (window->surface.close_requested())
                     throw std::runtime_error("the replay's window was closed");
             }
+            // A frame that was not rendered then has nothing to be compared with.
+            if (!recorded.image_hash) return std::nullopt;
             return pictures.hash_of(picture);
         },
         [&](int done, int) { bar.update(done, ""); });
