@@ -25,7 +25,8 @@ class Scaled {
           span_(posterior.range().high - posterior.range().low) {}
 
     std::size_t size() const {
-        return 3 + (model_.fixed_lambda ? 0 : 1) + (model_.asymptotes == Asymptotes::free ? 1 : 0);
+        return 2 + (model_.dispersion == Dispersion::fitted ? 1 : 0) + (model_.fixed_lambda ? 0 : 1) +
+               (model_.asymptotes == Asymptotes::free ? 1 : 0);
     }
 
     PsychometricParameters parameters(std::span<const double> q) const {
@@ -33,8 +34,11 @@ class Scaled {
         const double place = low_ + q[0] * span_;
         p.threshold = model_.sigmoid == Sigmoid::weibull ? std::exp(place) : place;
         p.width = std::exp(q[1]) * span_;
-        p.eta = q[2] * q[2];
-        std::size_t next = 3;
+        std::size_t next = 2;
+        if (model_.dispersion == Dispersion::fitted) {
+            p.eta = q[next] * q[next];
+            ++next;
+        }
         p.lambda = model_.fixed_lambda ? *model_.fixed_lambda : q[next] * q[next];
         if (!model_.fixed_lambda) ++next;
         p.gamma = model_.asymptotes == Asymptotes::fixed   ? model_.fixed_gamma

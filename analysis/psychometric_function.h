@@ -40,6 +40,11 @@ enum class Asymptotes {
     fixed   // gamma given, such as 1/2 for two alternatives
 };
 
+enum class Dispersion {
+    fitted,   // eta fitted: answers may vary more than independent ones do, as when people are pooled
+    binomial  // eta held at 0: answers are independent given the function
+};
+
 struct PsychometricModel {
     Sigmoid sigmoid = Sigmoid::logistic;
     Asymptotes asymptotes = Asymptotes::free;
@@ -48,6 +53,7 @@ struct PsychometricModel {
     std::optional<Interval>
         x_range;  // that the priors rest on; of the data when absent. Give it for adaptive data.
     std::optional<double> x_spacing;  // smallest step of x; of the data when absent
+    Dispersion dispersion = Dispersion::fitted;
 };
 
 // S at x.

@@ -1,5 +1,6 @@
 // Prints how often 95 % intervals cover the truth and how often tests at 0.05 reject a true null hypothesis,
 // as Markdown tables. Usage: analysis_calibration [studies per row, default 2000]
+// [thresholds: the table of psychometric fits only]
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -109,12 +110,18 @@ void intervals_over_people(int studies) {
 
 void intervals_of_thresholds(int studies) {
     std::printf(
-        "| trials per sigma | function | threshold (half way) | sigma^2 at 80 %% identical "
-        "|\n|---:|---|---:|---:|\n");
+        "| trials per sigma | function | overdispersion | threshold (half way) | sigma^2 at 80 %% identical "
+        "|\n|---:|---|---|---:|---:|\n");
     for (int n : {36, 100})
-        for (Sigmoid sigmoid : {Sigmoid::logistic, Sigmoid::normal, Sigmoid::weibull}) {
+        for (const auto& [sigmoid, dispersion] : {std::pair{Sigmoid::logistic, Dispersion::fitted},
+                                                  std::pair{Sigmoid::logistic, Dispersion::binomial},
+                                                  std::pair{Sigmoid::normal, Dispersion::fitted},
+                                                  std::pair{Sigmoid::normal, Dispersion::binomial},
+                                                  std::pair{Sigmoid::weibull, Dispersion::fitted},
+                                                  std::pair{Sigmoid::weibull, Dispersion::binomial}}) {
             PsychometricFitOptions options;
             options.model.sigmoid = sigmoid;
+            options.model.dispersion = dispersion;
             options.draws = 4000;
             const PsychometricParameters truth{3.5, sigmoid == Sigmoid::weibull ? 1.1 : 3.0, 0.02, 0.04, 0.0};
             const double at = *psychometric_inverse(options.model, truth, 0.2);
@@ -135,7 +142,8 @@ void intervals_of_thresholds(int studies) {
             const char* name = sigmoid == Sigmoid::logistic ? "logistic"
                                : sigmoid == Sigmoid::normal ? "cumulative normal"
                                                             : "Weibull";
-            std::printf("| %d | %s | %.1f | %.1f |\n", n, name, cover[0], cover[1]);
+            std::printf("| %d | %s | %s | %.1f | %.1f |\n", n, name,
+                        dispersion == Dispersion::fitted ? "fitted" : "none (binomial)", cover[0], cover[1]);
         }
 }
 
@@ -198,18 +206,19 @@ void tests_under_the_null(int studies) {
 int main(int argc, char** argv) {
     const int studies = argc > 1 ? std::atoi(argv[1]) : 2000;
     if (studies < 4) {
-        std::fprintf(stderr, "usage: analysis_calibration [studies per row, at least 4]\n");
+        std::fprintf(stderr, "usage: analysis_calibration [studies per row, at least 4] [thresholds]\n");
         return 2;
     }
+    std::printf("\nCoverage of 95 %% credible intervals of psychometric fits (%d studies per row), in %%\n\n",
+                studies / 4);
+    parafovea::intervals_of_thresholds(studies);
+    if (argc > 2) return 0;
     std::printf("Coverage of 95 %% intervals, independent answers (%d studies per row), in %%\n\n",
                 studies * 5);
     parafovea::intervals_of_independent_answers(studies);
     std::printf("\nCoverage of 95 %% intervals of P_I when people differ (%d studies per row), in %%\n\n",
                 studies);
     parafovea::intervals_over_people(studies);
-    std::printf("\nCoverage of 95 %% credible intervals of psychometric fits (%d studies per row), in %%\n\n",
-                studies / 4);
-    parafovea::intervals_of_thresholds(studies);
     std::printf("\nRejections of a true null hypothesis at 0.05 (%d studies per row), in %%\n\n", studies);
     parafovea::tests_under_the_null(studies);
 }
