@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <map>
 #include <numeric>
 
 #include "analysis/cochran_exact.h"
@@ -110,6 +111,57 @@ TEST(CochranQ, exact_p_equals_brute_force_and_q_averages_to_its_degrees_of_freed
         EXPECT_NEAR(*result.p_exact, p, 1e-12);
         if (result.q) {
             EXPECT_NEAR(mean_q, static_cast<double>(columns) - 1.0, 1e-9);
+        }
+    }
+}
+
+// All column totals kept apart and to the end: no sorting, no ranks, no state settled early.
+std::map<std::vector<std::int64_t>, double> plain_distribution(
+    std::span<const std::int64_t> rows_with_total) {
+    const std::size_t k = rows_with_total.size() - 1;
+    std::map<std::vector<std::int64_t>, double> states{{std::vector<std::int64_t>(k, 0), 1.0}};
+    for (std::size_t ones = 0; ones <= k; ++ones) {
+        std::vector<int> first(k, 0);
+        std::fill(first.end() - static_cast<std::ptrdiff_t>(ones), first.end(), 1);
+        std::vector<std::vector<int>> rows;
+        do rows.push_back(first);
+        while (std::next_permutation(first.begin(), first.end()));
+        for (std::int64_t repeat = 0; repeat < rows_with_total[ones]; ++repeat) {
+            std::map<std::vector<std::int64_t>, double> next;
+            for (const auto& [totals, share] : states)
+                for (const auto& row : rows) {
+                    auto to = totals;
+                    for (std::size_t j = 0; j < k; ++j) to[j] += row[j];
+                    next[to] += share / static_cast<double>(rows.size());
+                }
+            states = std::move(next);
+        }
+    }
+    return states;
+}
+
+TEST(EnumerateColumnTotals, equals_keeping_every_total_for_every_statistic_that_can_be_observed) {
+    for (const std::vector<std::int64_t>& rows :
+         {std::vector<std::int64_t>{2, 5, 4, 3, 1}, std::vector<std::int64_t>{0, 9, 0, 5},
+          std::vector<std::int64_t>{3, 12, 2}, std::vector<std::int64_t>{0, 2, 3, 0, 2, 1}}) {
+        const auto states = plain_distribution(rows);
+        std::map<std::int64_t, double> share_of;
+        double mean = 0.0;
+        for (const auto& [totals, share] : states) {
+            const auto squares =
+                std::inner_product(totals.begin(), totals.end(), totals.begin(), std::int64_t{0});
+            share_of[squares] += share;
+            mean += share * static_cast<double>(squares);
+        }
+        double at_least = 1.0;
+        for (const auto& [squares, share] : share_of) {
+            SCOPED_TRACE(squares);
+            const auto counted = enumerate_column_totals(rows, squares, 30'000'000);
+            ASSERT_TRUE(counted);
+            EXPECT_NEAR(counted->at_least, at_least, 1e-12);
+            EXPECT_NEAR(counted->equal, share, 1e-12);
+            EXPECT_NEAR(counted->mean, mean, 1e-9 * mean);
+            at_least -= share;
         }
     }
 }
@@ -237,6 +289,12 @@ TEST(ChiSquareTail, agrees_with_closed_forms_near_and_far) {
     // erfc gives df 1 independently: P(chi2_1 >= x) = erfc(sqrt(x / 2)).
     for (double x : {0.1, 1.0, 3.84, 50.0, 120.0, 400.0})
         EXPECT_NEAR(chi_square_tail(x, 1).p / std::erfc(std::sqrt(x / 2.0)), 1.0, 1e-10);
+}
+
+TEST(ChiSquareTail, of_published_q_whose_tables_are_not_printed_agrees_to_the_printed_digits) {
+    EXPECT_NEAR(chi_square_tail(5.565217, 4).p, .234056, 5e-7);    // WaveMetrics, wave1
+    EXPECT_NEAR(chi_square_tail(10.363636, 4).p, .0347281, 5e-8);  // WaveMetrics, wave2
+    EXPECT_NEAR(chi_square_tail(4.222222, 2).p, .1211033, 5e-8);   // NCSS
 }
 
 TEST(ChiSquareTail, has_the_critical_values_the_paper_prints) {

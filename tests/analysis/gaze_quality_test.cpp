@@ -20,6 +20,12 @@ TEST(GazeQuality, agrees_with_etdqualitizers_examples) {
     EXPECT_NEAR(accuracy->elevation_deg, 1.50023, 5e-6);
     EXPECT_NEAR(*gaze_rms_s2s_deg(kThree), 1.414214, 5e-7);
     EXPECT_NEAR(*gaze_std_deg(kThree), 1.154701, 5e-7);
+    // Its components: the same steps along one axis only.
+    for (const std::vector<GazeAngle>& axis :
+         {std::vector<GazeAngle>{{1, 0}, {2, 0}, {3, 0}}, std::vector<GazeAngle>{{0, 1}, {0, 2}, {0, 3}}}) {
+        EXPECT_NEAR(*gaze_rms_s2s_deg(axis), 1.0, 1e-12);
+        EXPECT_NEAR(*gaze_std_deg(axis), .816497, 5e-7);
+    }
 }
 
 TEST(GazeQuality, bcea_of_independent_axes_is_its_closed_form) {

@@ -74,6 +74,14 @@ TEST(PsychometricFit, finds_the_reference_optima) {
     EXPECT_NEAR(logistic.best.threshold, 1.188664, 1.2e-3);
     EXPECT_NEAR(logistic.best.width, 1.349707, 1.4e-3);
     EXPECT_NEAR(logistic.negative_log_posterior, 49.527626, 1e-6);
+
+    // psignifit's own values for the last three.
+    EXPECT_NEAR(fixed.best.threshold, .0046, .0046e-2);
+    EXPECT_NEAR(fixed.best.width, .0045, .0045e-2);
+    EXPECT_NEAR(yes_no.best.threshold, .897274, .897274e-2);
+    EXPECT_NEAR(yes_no.best.width, 1.434103, 1.434103e-2);
+    EXPECT_NEAR(logistic.best.threshold, 1.189541, 1.189541e-2);
+    EXPECT_NEAR(logistic.best.width, 1.345906, 1.345906e-2);
 }
 
 TEST(PsychometricFunction, is_half_at_threshold_spans_its_width_and_inverts) {
@@ -139,6 +147,30 @@ TEST(PsychometricFit, recovers_known_parameters_and_its_interval_holds_them) {
         EXPECT_GT(result->acceptance, 0.05);
         EXPECT_LT(result->acceptance, 0.7);
     }
+}
+
+TEST(PsychometricFit, of_binomial_dispersion_holds_eta_at_0_and_is_surer_of_noisy_data) {
+    const auto levels = ten_levels({4, 0, 6, 1, 9, 3, 10, 4, 10, 7});  // far from any monotonic function
+    PsychometricFitOptions options;
+    const PsychometricFit fitted = *fit_psychometric(levels, options);
+    options.model.dispersion = Dispersion::binomial;
+    const PsychometricFit binomial = *fit_psychometric(levels, options);
+    EXPECT_EQ(binomial.best.eta, 0.0);
+    EXPECT_EQ(binomial.eta.low, 0.0);
+    EXPECT_EQ(binomial.eta.high, 0.0);
+    EXPECT_GT(fitted.best.eta, 0.1);
+    EXPECT_LT(fitted.negative_log_posterior, binomial.negative_log_posterior);
+    EXPECT_LT(binomial.threshold.high - binomial.threshold.low, fitted.threshold.high - fitted.threshold.low);
+
+    // The likelihood is the binomial one, written out.
+    const PsychometricPosterior posterior(levels, options.model);
+    double sum = 0.0;
+    for (const PsychometricLevel& level : levels) {
+        const double psi = psychometric_value(options.model, binomial.best, level.x);
+        sum += static_cast<double>(level.different) * std::log(psi) +
+               static_cast<double>(level.n - level.different) * std::log(1.0 - psi);
+    }
+    EXPECT_NEAR(posterior.log_likelihood(binomial.best), sum, 1e-9);
 }
 
 TEST(PsychometricFit, does_not_depend_on_the_scale_of_x) {
