@@ -6,6 +6,7 @@
 #include "app/commands.h"
 #include "app/window_surface.h"
 #include "devices/inventory.h"
+#include "devices/openxr/openxr_instance.h"
 #include "renderer/gpu.h"
 
 namespace parafovea {
@@ -26,6 +27,16 @@ void print_displays() {
         }
     } catch (const std::runtime_error& reason) {
         std::printf("display      window     missing: %s\n", reason.what());
+    }
+    try {
+        const OpenXrInstance headset;
+        std::printf("display      openxr     %s on %s, %zu %s of %d x %d, %s\n",
+                    headset.headset_name().c_str(), headset.runtime_name().c_str(),
+                    headset.view_sizes().size(), headset.view_sizes().size() == 1 ? "view" : "views",
+                    headset.view_sizes()[0].width, headset.view_sizes()[0].height,
+                    headset.has_eye_tracker() ? "with an eye tracker" : "no eye tracker through OpenXR");
+    } catch (const std::runtime_error& reason) {
+        std::printf("display      openxr     missing: %s\n", reason.what());
     }
     std::printf("display      headless   here\n");
 }

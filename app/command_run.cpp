@@ -19,14 +19,15 @@ RunCommand::RunCommand(CLI::App& program) {
         ->required();
     command->add_option("--data", data_, "Folder for the session file")->capture_default_str();
     command->add_option("--display", display_, "Where the pictures are shown")
-        ->check(CLI::IsMember({"window", "headless"}))
+        ->check(CLI::IsMember({"openxr", "window", "headless"}))
         ->capture_default_str();
-    command->add_option("--gaze", gaze_,
-                        "Eye tracker: hid, fove, gazepoint, mouse, simulated, replay:FILE; mouse in a "
-                        "window, else simulated, if absent");
+    command->add_option(
+        "--gaze", gaze_,
+        "Eye tracker: openxr, hid, fove, gazepoint, mouse, simulated, replay:FILE; openxr in a headset, "
+        "mouse in a window, else simulated, if absent");
     command->add_option("--controller", controller_,
                         "Answers: auto, evdev, hidapi, libusb, gamepad, keyboard, simulated; auto in a "
-                        "window, else simulated, if absent");
+                        "headset or window, else simulated, if absent");
     command->add_option("--seed", seed_, "Seed of every random draw; drawn and stored if absent");
     command->add_flag("--resume", resume_, "Go on with the participant's latest session of this study");
     command->add_option("--monitor", monitor_, "Which monitor shows the window, from 0")
@@ -41,9 +42,11 @@ void RunCommand::run() const {
     std::stop_source stop;
     const StopOnSignal stop_on_signal(stop);
 
-    const bool window = display_ == "window";
-    const std::string gaze = !gaze_.empty() ? gaze_ : window ? "mouse" : "simulated";
-    const std::string controller = !controller_.empty() ? controller_ : window ? "auto" : "simulated";
+    const bool headset = display_ == "openxr", window = display_ == "window";
+    const std::string gaze = !gaze_.empty() ? gaze_ : headset ? "openxr" : window ? "mouse" : "simulated";
+    const std::string controller = !controller_.empty() ? controller_
+                                   : headset || window  ? "auto"
+                                                        : "simulated";
     const LiveSessionRequest request{protocol_, participant_, data_,    display_,     gaze,        controller,
                                      seed_,     resume_,      monitor_, full_screen_, !no_console_};
     const int trials = static_cast<int>(make_plan(load_protocol(protocol_), 0, 0).trials.size());

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <cstdio>
 #include <ctime>
 #include <exception>
@@ -14,6 +15,7 @@
 
 #include "app/calibration_page.h"
 #include "app/headless_stage.h"
+#include "app/openxr_stage.h"
 #include "app/operator_board.h"
 #include "app/operator_console.h"
 #include "app/participant_id.h"
@@ -129,7 +131,7 @@ class LiveSession {
         person_.emplace(protocol_, *clock_, judge_,
                         SimulatedPersonSettings{.seed = seed_, .thinks_in_background = real_time_});
         make_stage();
-        const SourceParts parts{*clock_, *person_, input_.get()};
+        const SourceParts parts{*clock_, *person_, input_.get(), headset_ ? &headset_->session() : nullptr};
         gaze_ = choose_gaze(request_.gaze, parts);
         controller_ = choose_controller(request_.controller, parts);
         if (!log_) create_log();
@@ -150,6 +152,10 @@ class LiveSession {
                                                         *clock_, pictures_, *person_);
             stage_ = headless_.get();
             display_ = real_time_ ? "headless" : "headless, simulated clock";
+            return;
+        }
+        if (request_.display == "openxr") {
+            put_on_headset();
             return;
         }
         windows_ = std::make_unique<Windows>(request_, protocol_.display.view.size);
@@ -174,6 +180,21 @@ class LiveSession {
                 std::make_unique<OperatorConsole>(*windows_->operators, board_, pictures_, protocol_, stop_);
     }
 
+    void put_on_headset() {
+        OpenXrStageOptions options;
+        options.stop = stop_.get_token();
+        if (request_.gaze == "simulated" || request_.controller == "simulated") options.audience = &*person_;
+        headset_ = std::make_unique<OpenXrStage>(*clock_, options);
+        stage_ = headset_.get();
+        display_ = headset_->description();
+        const ViewGeometry wanted = protocol_.display.view, real = headset_->view();
+        if (std::abs(real.pixels_per_degree() / wanted.pixels_per_degree() - 1) > 0.02)
+            std::fprintf(stderr,
+                         "parafovea: the headset has %.1f pixels a degree in the middle, the protocol's view "
+                         "%.1f; the headset's is shown and stored\n",
+                         real.pixels_per_degree(), wanted.pixels_per_degree());
+    }
+
     void create_log() {
         SessionFacts facts;
         facts.uuid = make_uuid();
@@ -182,9 +203,10 @@ class LiveSession {
         facts.display = display_;
         facts.gaze_source = gaze_.source->description();
         facts.controller = controller_.source->description();
-        facts.device = pictures_.device_name();
-        facts.driver = pictures_.driver_name();
+        facts.device = headset_ ? headset_->gpu().device_name() : pictures_.device_name();
+        facts.driver = headset_ ? headset_->gpu().driver_name() : pictures_.driver_name();
         facts.refresh_hz = stage_->refresh_hz();
+        facts.view = stage_->view();
         facts.simulated_people = request_.gaze == "simulated" || request_.controller == "simulated";
         file_ =
             new_session_file(request_.data_folder, protocol_.name, request_.participant, std::time(nullptr));
@@ -226,6 +248,10 @@ class LiveSession {
             window_stage_->set_progress(static_cast<double>(progress.done) / progress.total);
         if (!progress.next || progress.state != "trial") return;
         if (window_stage_) window_stage_->prepare(*progress.next);
+        if (headset_) {
+            headset_->prepare(progress.next->scene, progress.next->first);
+            headset_->prepare(progress.next->scene, progress.next->second);
+        }
         person_->begin_trial(progress.next->number, attempts_before(*log_, progress.next->number));
     }
 
@@ -279,6 +305,7 @@ class LiveSession {
     std::unique_ptr<WindowStage> window_stage_;
     std::unique_ptr<HeadlessStage> headless_;
     std::unique_ptr<OperatorConsole> console_;
+    std::unique_ptr<OpenXrStage> headset_;
     Stage* stage_ = nullptr;
     std::string display_;
     ChosenSource<GazeSource> gaze_;

@@ -16,7 +16,7 @@ struct LiveSessionRequest {
     std::string protocol_file;
     std::string participant;            // a pseudonym that ends in a number
     std::filesystem::path data_folder;  // for the session file
-    std::string display;                // "window" or "headless"
+    std::string display;                // "openxr", "window" or "headless"
     std::string gaze, controller;       // see source_choice.h
     std::optional<std::uint64_t> seed;  // of the plan; absent: drawn from the system's randomness
     bool resume = false;                // go on with the participant's latest session

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstdio>
 #include <cstring>
 #include <glm/gtc/quaternion.hpp>
 #include <stdexcept>
@@ -110,6 +111,16 @@ OpenXrStage::OpenXrStage(Clock& clock, const OpenXrStageOptions& options)
 }
 
 OpenXrStage::~OpenXrStage() = default;
+
+std::string OpenXrStage::description() const {
+    const SizePx size = instance_.view_sizes().front();
+    char text[256];
+    std::snprintf(text, sizeof text, "%s on %s, %zu %s of %d x %d at %.2f Hz",
+                  instance_.headset_name().c_str(), instance_.runtime_name().c_str(),
+                  instance_.view_sizes().size(), instance_.view_sizes().size() == 1 ? "view" : "views",
+                  size.width, size.height, refresh_hz_);
+    return text;
+}
 
 // Keeps the gravest.
 void OpenXrStage::note(std::string_view fault) {

@@ -58,6 +58,10 @@ class OpenXrStage final : public Stage {
     double refresh_hz() const override { return refresh_hz_; }
     ViewGeometry view() const override { return view_; }
 
+    // For the log, e.g. "Simulated FOVE-like headset on Parafovea simulated headset 1.0.0, 2 views of
+    // 1280 x 1440 at 70.00 Hz".
+    std::string description() const;
+
     OpenXrSession& session() { return *session_; }
     const OpenXrInstance& instance() const { return instance_; }
     const Gpu& gpu() const { return gpu_; }

@@ -11,6 +11,7 @@
 #include "devices/gaze_recording.h"
 #include "devices/gazepoint/gazepoint_gaze.h"
 #include "devices/hid/hid_gaze.h"
+#include "devices/openxr/openxr_gaze.h"
 #include "devices/replay_gaze.h"
 #include "devices/xbox/bluetooth_pad.h"
 #include "devices/xbox/evdev_controller.h"
@@ -47,6 +48,7 @@ ChosenSource<ControllerSource> first_controller(const SourceParts& parts) {
 ChosenSource<GazeSource> choose_gaze(const std::string& name, const SourceParts& parts) {
     if (name == "simulated") return {nullptr, &parts.person.tracker()};
     if (name == "mouse" && parts.input) return {nullptr, &parts.input->mouse()};
+    if (name == "openxr" && parts.headset) return owned(std::make_unique<OpenXrGaze>(*parts.headset));
     if (name == "hid") return owned(std::make_unique<HidGaze>(parts.clock));
     if (name == "fove") return owned(std::make_unique<FoveGaze>(parts.clock));
     if (name == "gazepoint") return owned(std::make_unique<GazepointGaze>(parts.clock));
@@ -55,8 +57,8 @@ ChosenSource<GazeSource> choose_gaze(const std::string& name, const SourceParts&
             parts.clock, read_gaze_recording(name.substr(kReplay.size())), ReplayOptions{.repeat = true}));
     throw std::runtime_error(
         "--gaze " + name +
-        ": expected hid, fove, gazepoint, simulated, replay:FILE, or mouse with --display "
-        "window");
+        ": expected hid, fove, gazepoint, simulated, replay:FILE, mouse with --display window, or openxr "
+        "with --display openxr");
 }
 
 ChosenSource<ControllerSource> choose_controller(const std::string& name, const SourceParts& parts) {

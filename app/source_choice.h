@@ -12,13 +12,15 @@
 
 namespace parafovea {
 
+class OpenXrSession;
 class WindowInput;
 
 // What sources are made from; all is borrowed.
 struct SourceParts {
     Clock& clock;
     SimulatedPerson& person;
-    WindowInput* input = nullptr;  // of the participant's window, where there is one
+    WindowInput* input = nullptr;      // of the participant's window, where there is one
+    OpenXrSession* headset = nullptr;  // where there is one
 };
 
 // A source that is owned here, or that belongs to the parts.

@@ -72,6 +72,8 @@ OpenXrInstance::~OpenXrInstance() {
 }
 
 void OpenXrInstance::create_instance() {
+    // What the loader would print beside our one line; it can be asked for by hand.
+    setenv("XR_LOADER_DEBUG", "none", 0);
     std::uint32_t count = 0;
     check_openxr(xrEnumerateInstanceExtensionProperties(nullptr, 0, &count, nullptr),
                  "looking for a runtime");
