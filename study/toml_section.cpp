@@ -73,8 +73,7 @@ void TomlSection::mistake(int line, std::string message) {
 void TomlSection::missing(std::string_view key, std::string_view example) {
     if (std::find(asked_.begin(), asked_.end(), key) == asked_.end()) asked_.emplace_back(key);
     if (has(key)) return;  // there, but wrong: already said
-    mistake(line(), "expected the key \"" + std::string(key) + "\" in " + name_ + ", found none; add e.g. " +
-                        std::string(example));
+    missing_.emplace_back(key, example);
 }
 
 const toml::node* TomlSection::asked(std::string_view key) {
@@ -184,6 +183,7 @@ std::vector<std::string> TomlSection::all_keys() {
 }
 
 void TomlSection::finish() {
+    std::vector<std::string> misspelt;  // missing only because the file has it under another spelling
     for (auto&& [key, value] : *table_) {
         const std::string_view found = key.str();
         if (std::find(asked_.begin(), asked_.end(), found) != asked_.end()) continue;
@@ -191,10 +191,15 @@ void TomlSection::finish() {
             asked_.begin(), asked_.end(),
             [&](const auto& a, const auto& b) { return edit_distance(a, found) < edit_distance(b, found); });
         const bool close = nearest != asked_.end() && edit_distance(*nearest, found) <= 1 + found.size() / 3;
+        if (close) misspelt.push_back(*nearest);
         mistake(line_of(found),
                 "expected one of the keys " + joined(asked_) + " in " + name_ + ", found \"" +
                     std::string(found) + "\"; " +
                     (close ? "write " + *nearest + " if that is meant" : "remove or rename it"));
+    }
+    for (const auto& [key, example] : missing_) {
+        if (std::find(misspelt.begin(), misspelt.end(), key) != misspelt.end()) continue;
+        mistake(line(), "expected the key \"" + key + "\" in " + name_ + ", found none; add e.g. " + example);
     }
 }
 

@@ -59,10 +59,10 @@ class TomlSection {
     int line_of(std::string_view key) const;
 
     void mistake(int line, std::string message);
-    void missing(std::string_view key,
-                 std::string_view example);  // "expected the key ..., found none; add ..."
+    // "expected the key ..., found none; add ...", said by finish() unless the key turns out to be misspelt.
+    void missing(std::string_view key, std::string_view example);
 
-    // Reports every key that was never asked for.
+    // Reports every key that was never asked for, and every missing one. To be called once, at the end.
     void finish();
 
   private:
@@ -74,6 +74,7 @@ class TomlSection {
     std::string name_;
     std::vector<ProtocolMistake>* mistakes_;
     std::vector<std::string> asked_;
+    std::vector<std::pair<std::string, std::string>> missing_;  // key, example
 };
 
 // A value as a reader would write it, for "found ...".
