@@ -131,7 +131,8 @@ TEST(Protocol, all_mistakes_are_told_at_once_in_the_order_of_lines) {
     text.replace(text.find("gap_s = 0.1"), 11, "gap_s = -1\ngab_s = 2");
     text.replace(text.find("refresh_hz = 100"), 16, "refresh = 100");
     const auto mistakes = mistakes_of(text);
-    ASSERT_EQ(mistakes.size(), 5u);
+    // A required key under another spelling is one mistake, not also a missing key.
+    ASSERT_EQ(mistakes.size(), 4u);
     EXPECT_TRUE(std::is_sorted(mistakes.begin(), mistakes.end(),
                                [](const auto& a, const auto& b) { return a.line < b.line; }));
     try {
@@ -139,7 +140,8 @@ TEST(Protocol, all_mistakes_are_told_at_once_in_the_order_of_lines) {
         FAIL();
     } catch (const ProtocolError& error) {
         const std::string what = error.what();
-        EXPECT_EQ(std::count(what.begin(), what.end(), '\n'), 4);
+        EXPECT_EQ(std::count(what.begin(), what.end(), '\n'), 3);
+        EXPECT_THAT(what, HasSubstr("found \"refresh\"; write refresh_hz"));
         EXPECT_THAT(
             what, HasSubstr("p.toml:" + std::to_string(line_in(text, "gap_s = -1")) + ": expected a number"));
     }
