@@ -15,7 +15,8 @@ class Hash {
     Hash& add(std::int64_t value) { return add(static_cast<std::uint64_t>(value)); }
     Hash& add(int value) { return add(static_cast<std::int64_t>(value)); }
     Hash& add(bool value) { return add(value ? 1 : 0); }
-    Hash& add(double value) { return add(std::bit_cast<std::uint64_t>(value)); }
+    // SQLite keeps no minus zero.
+    Hash& add(double value) { return add(std::bit_cast<std::uint64_t>(value + 0.0)); }
     Hash& add(HostTime value) { return add(value.ns); }
     Hash& add(DeviceTime value) { return add(value.ns); }
     Hash& add(Duration value) { return add(value.ns); }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <fstream>
 #include <map>
 #include <set>
@@ -272,6 +273,49 @@ TEST_F(HeadsetSession, AParticipantWhoQuitsInTheHeadsetCanResume) {
     EXPECT_EQ(run(true), SessionEnd::finished);
     EXPECT_EQ(failure_, "");
     expect_all_trials_count(read_session(file()));
+}
+
+// The program itself, in real time, its eye tracker on a thread of its own.
+TEST_F(HeadsetSession, TheProgramRunsItFromTheCommandLineAndVerifiesIt) {
+    std::string study = kStudy;
+    const auto replace = [&study](std::string_view old, std::string_view replacement) {
+        study.replace(study.find(old), old.size(), replacement);
+    };
+    replace("sigma = [1.2, 1.8, 2.4]", "sigma = [1.2, 2.4]");
+    replace("alpha = [1, 4]", "alpha = [4]");
+    // How fast the machine is must not decide.
+    replace("missed_frames = 2", "");
+    replace("gaze_lost_share = 0.3", "");
+    std::ofstream(folder_ / "study.toml") << study;
+    const ValidationLayers layers;
+    layers.use("shrink=16;gaze=" + (folder_ / "gaze.csv").string());
+    const std::string output = (folder_ / "output.txt").string();
+    const std::string program = PARAFOVEA_PROGRAM;
+    const auto shell = [&output](const std::string& command) {
+        std::string line = "VK_INSTANCE_LAYERS=VK_LAYER_KHRONOS_validation ";
+        line.append(command).append(" >>").append(output).append(" 2>&1");
+        return std::system(line.c_str());
+    };
+    const std::string folder = (folder_ / "data").string();
+    ASSERT_EQ(shell(program + " run " + (folder_ / "study.toml").string() +
+                    " --participant P01 --display openxr --controller simulated --seed 3 --data " + folder),
+              0)
+        << text_of(output);
+    layers.expect_silence();
+
+    std::filesystem::path session;
+    for (const auto& entry : std::filesystem::directory_iterator(folder)) session = entry.path();
+    const SessionRows rows = read_session(session);
+    EXPECT_TRUE(rows.finished);
+    expect_all_trials_count(rows);
+    EXPECT_THAT(rows.facts.display,
+                testing::StartsWith("Simulated FOVE-like headset on Parafovea simulated"));
+    EXPECT_EQ(rows.facts.view.size, (SizePx{80, 90}));
+    for (const TrialRow& row : rows.trials) EXPECT_FALSE(read_gaze(session, row.planned.number).empty());
+
+    ASSERT_EQ(shell(program + " replay --verify " + session.string()), 0) << text_of(output);
+    for (const char* const complaint : {"VUID", "UNASSIGNED", "SYNC-HAZARD", "Validation Error"})
+        EXPECT_THAT(text_of(output), testing::Not(testing::HasSubstr(complaint)));
 }
 
 }  // namespace

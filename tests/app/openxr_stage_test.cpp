@@ -235,6 +235,11 @@ struct FaultCase {
     int missed;                       // at least
 };
 
+// Named by its script in messages and by ctest.
+void PrintTo(const FaultCase& fault, std::ostream* out) {
+    *out << fault.script;
+}
+
 class OpenXrStageFault : public testing::TestWithParam<FaultCase> {};
 
 // Each happens once among forty frames: it is told, every frame is shown, time goes on.
