@@ -8,6 +8,7 @@
 #include <string>
 
 #include "app/commands.h"
+#include "app/eye_pictures.h"
 #include "app/picture_source.h"
 #include "app/progress.h"
 #include "app/window_stage.h"
@@ -26,30 +27,50 @@ namespace fs = std::filesystem;
 // Renders what is replayed, a picture that goes on over many frames once.
 class ReplayedPictures {
   public:
-    ReplayedPictures(const ViewGeometry& view, fs::path folder)
-        : pictures_(view), folder_(std::move(folder)) {}
+    // `eyes`: of the headset that the session was shown on.
+    ReplayedPictures(const ViewGeometry& view, fs::path folder, std::optional<Eyes> eyes)
+        : pictures_(view), folder_(std::move(folder)), eyes_(std::move(eyes)) {
+        if (!eyes_) return;
+        gpu_ = std::make_unique<Gpu>();
+        eye_pictures_ = std::make_unique<EyePictures>(*gpu_);
+    }
 
     std::optional<std::uint64_t> hash_of(const Picture& picture) {
         if (picture.kind != PictureKind::stimulus) return std::nullopt;
         if (last_ && last_->scene == picture.scene && last_->method == picture.method &&
             last_->fovea == picture.fovea)
             return last_hash_;
-        const RenderedPicture rendered = pictures_.picture(picture.scene, picture.method, picture.fovea);
         last_ = picture;
-        last_hash_ = rendered.hash;
-        if (!folder_.empty() && saved_.insert(rendered.hash).second) {
-            char name[32];
-            std::snprintf(name, sizeof name, "%016llx.png", static_cast<unsigned long long>(rendered.hash));
-            save_png({rendered.size, rendered.rgba}, folder_ / name);
+        if (eyes_) {
+            last_hash_ = 0;
+            for (std::size_t i = 0; i < eyes_->views.size(); ++i) {
+                const EyePictures::Drawn drawn = eye_pictures_->draw(*eyes_, i, picture, true);
+                last_hash_ = EyePictures::combine(last_hash_, *drawn.pixels);
+                save(*drawn.pixels);
+            }
+            return last_hash_;
         }
+        const RenderedPicture rendered = pictures_.picture(picture.scene, picture.method, picture.fovea);
+        last_hash_ = rendered.hash;
+        save(rendered);
         return last_hash_;
     }
 
     PictureSource& source() { return pictures_; }
 
   private:
+    void save(const RenderedPicture& rendered) {
+        if (folder_.empty() || !saved_.insert(rendered.hash).second) return;
+        char name[32];
+        std::snprintf(name, sizeof name, "%016llx.png", static_cast<unsigned long long>(rendered.hash));
+        save_png({rendered.size, rendered.rgba}, folder_ / name);
+    }
+
     PictureSource pictures_;
     fs::path folder_;
+    std::optional<Eyes> eyes_;
+    std::unique_ptr<Gpu> gpu_;
+    std::unique_ptr<EyePictures> eye_pictures_;
     std::optional<Picture> last_;
     std::uint64_t last_hash_ = 0;
     std::set<std::uint64_t> saved_;
@@ -97,7 +118,10 @@ void ReplayCommand::run() const {
             throw std::runtime_error(out_ + ": cannot make this folder (" + error.message() +
                                      "); name another with --out");
     }
-    ReplayedPictures pictures(protocol.display.view, out_);
+    const auto eyes = rows.facts.other.find("eyes");
+    ReplayedPictures pictures(
+        protocol.display.view, out_,
+        eyes == rows.facts.other.end() ? std::nullopt : std::optional(parse_eyes(eyes->second)));
     std::unique_ptr<ReplayWindow> window;
     if (!verify_) window = std::make_unique<ReplayWindow>(protocol, pictures.source());
 

@@ -34,6 +34,10 @@ RunCommand::RunCommand(CLI::App& program) {
         ->capture_default_str();
     command->add_flag("--full-screen", full_screen_, "The window takes the whole monitor");
     command->add_flag("--no-console", no_console_, "No operator's console beside the participant's window");
+    command->add_flag(
+        "--hash-pictures", hash_pictures_,
+        "With --display openxr: store a hash of every stimulus, so that replay --verify compares "
+        "pictures too; costs time in every frame");
     command->add_flag("--quiet", quiet_, "No progress");
     command->callback([this] { run(); });
 }
@@ -47,8 +51,9 @@ void RunCommand::run() const {
     const std::string controller = !controller_.empty() ? controller_
                                    : headset || window  ? "auto"
                                                         : "simulated";
-    const LiveSessionRequest request{protocol_, participant_, data_,    display_,     gaze,        controller,
-                                     seed_,     resume_,      monitor_, full_screen_, !no_console_};
+    const LiveSessionRequest request{protocol_, participant_, data_,        display_,
+                                     gaze,      controller,   seed_,        resume_,
+                                     monitor_,  full_screen_, !no_console_, hash_pictures_};
     const int trials = static_cast<int>(make_plan(load_protocol(protocol_), 0, 0).trials.size());
     LiveSessionOutcome outcome;
     {

@@ -23,7 +23,7 @@ class RunCommand {
     std::optional<std::uint64_t> seed_;
     bool resume_ = false;
     int monitor_ = 0;
-    bool full_screen_ = false, no_console_ = false;
+    bool full_screen_ = false, no_console_ = false, hash_pictures_ = false;
     bool quiet_ = false;
 };
 

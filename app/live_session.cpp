@@ -183,6 +183,7 @@ class LiveSession {
     void put_on_headset() {
         OpenXrStageOptions options;
         options.stop = stop_.get_token();
+        options.hash_pictures = request_.hash_pictures;
         if (request_.gaze == "simulated" || request_.controller == "simulated") options.audience = &*person_;
         headset_ = std::make_unique<OpenXrStage>(*clock_, options);
         stage_ = headset_.get();
@@ -207,6 +208,7 @@ class LiveSession {
         facts.driver = headset_ ? headset_->gpu().driver_name() : pictures_.driver_name();
         facts.refresh_hz = stage_->refresh_hz();
         facts.view = stage_->view();
+        if (headset_) facts.other["eyes"] = to_text(headset_->eyes());
         facts.simulated_people = request_.gaze == "simulated" || request_.controller == "simulated";
         file_ =
             new_session_file(request_.data_folder, protocol_.name, request_.participant, std::time(nullptr));

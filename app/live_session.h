@@ -22,7 +22,8 @@ struct LiveSessionRequest {
     bool resume = false;                // go on with the participant's latest session
     int monitor = 0;                    // which shows the window
     bool full_screen = false;
-    bool console = true;  // the operator's window, beside the participant's
+    bool console = true;         // the operator's window, beside the participant's
+    bool hash_pictures = false;  // of a headset: reads every stimulus back, which costs time in every frame
 };
 
 struct LiveSessionOutcome {

@@ -2,16 +2,10 @@
 #include "app/openxr_stage.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstdio>
-#include <cstring>
-#include <glm/gtc/quaternion.hpp>
 #include <stdexcept>
 #include <utility>
-
-#include "devices/openxr/eye_view.h"
-#include "renderer/scene_catalog.h"
 
 namespace parafovea {
 
@@ -49,39 +43,11 @@ GpuImage on_device(Gpu& gpu, const Image& image) {
     return made;
 }
 
-// The frustum of an eye's picture in a scene, whose camera stands for the middle of the head.
-CameraView camera_of(const XrView& eye, const SceneCamera& camera) {
-    const XrQuaternionf& q = eye.pose.orientation;
-    const XrVector3f& p = eye.pose.position;
-    glm::mat4 head_from_eye = glm::mat4_cast(glm::quat(q.w, q.x, q.y, q.z));
-    head_from_eye[3] = glm::vec4(p.x, p.y, p.z, 1);
-    CameraView view;
-    view.world_from_eye = camera.world_from_camera * head_from_eye;
-    view.tan_left = -std::tan(eye.fov.angleLeft);
-    view.tan_right = std::tan(eye.fov.angleRight);
-    view.tan_up = std::tan(eye.fov.angleUp);
-    view.tan_down = -std::tan(eye.fov.angleDown);
-    view.near_m = camera.near_m;
-    return view;
-}
-
 bool same_page(const Picture& a, const Picture& b) {
     return a.kind == b.kind && a.text == b.text && (a.kind != PictureKind::target || a.fovea == b.fovea);
 }
 
-bool same_eyes(const std::vector<XrView>& a, const std::vector<XrView>& b) {
-    return std::ranges::equal(a, b, [](const XrView& x, const XrView& y) {
-        return std::memcmp(&x.pose, &y.pose, sizeof x.pose) == 0 &&
-               std::memcmp(&x.fov, &y.fov, sizeof x.fov) == 0;
-    });
-}
-
 }  // namespace
-
-struct OpenXrStage::LoadedScene {
-    FrameRenderer renderer;
-    SceneCamera camera;
-};
 
 struct OpenXrStage::Page {
     Picture picture;
@@ -94,13 +60,16 @@ OpenXrStage::OpenXrStage(Clock& clock, const OpenXrStageOptions& options)
       gpu_(gpu_options(instance_, options.validation)),
       session_(std::make_unique<OpenXrSession>(
           instance_,
-          OpenXrVulkan{gpu_.instance(), gpu_.physical_device(), gpu_.device(), gpu_.queue_family()}, clock)) {
+          OpenXrVulkan{gpu_.instance(), gpu_.physical_device(), gpu_.device(), gpu_.queue_family()}, clock)),
+      pictures_(gpu_) {
+    eyes_.sizes = instance_.view_sizes();
+    eyes_.gaze_distance_m = options.gaze_distance_m;
     while (session_->state() != SessionState::focused) {
         if (!next_turn()) throw std::runtime_error("stopped before the headset was put on");
         if (session_->state() != SessionState::focused) session_->end_frame(*turn_, false);
     }
     refresh_hz_ = session_->refresh_hz().value_or(0);
-    view_ = picture_between(eyes_, instance_.view_sizes().front());
+    view_ = eyes_.view();
     pages_ = std::make_unique<ParticipantPages>(view_);
     const int patch_px = std::max(1, static_cast<int>(kPatchDeg * view_.pixels_per_degree()));
     black_ = on_device(gpu_, blank_image({patch_px, patch_px}, 0));
@@ -149,9 +118,13 @@ bool OpenXrStage::next_turn() {
         clock_.wait_until(frame->display_time - frame->period);
         if (frame->should_render && !frame->views.empty()) {
             if (session_->state() != SessionState::focused) note("not_focused");
-            if (!same_eyes(eyes_, frame->views)) drawn_pages_.clear();
-            eyes_ = frame->views;
+            if (!nearly_same(eyes_.views, frame->views)) {
+                if (!eyes_.views.empty()) note("eyes_moved");
+                drawn_pages_.clear();
+                eyes_.views = frame->views;
+            }
             turn_ = frame;
+            turn_->views = eyes_.views;
             turn_began_ = clock_.now();
             return true;
         }
@@ -224,30 +197,15 @@ ShownFrame OpenXrStage::show(const Picture& picture) {
 }
 
 bool OpenXrStage::draw_stimulus(const Picture& picture, ShownFrame& shown) {
-    LoadedScene& scene = scene_called(picture.scene);
-    const Vector3 towards = unit_vector(view_.direction_from_point(picture.fovea));
-    const double reach = options_.gaze_distance_m / towards.z;
-    const Vector3 gazed_at{towards.x * reach, towards.y * reach, options_.gaze_distance_m};
-    const RenderMethod method{picture.method.method, picture.method.numbers, picture.method.words};
-
     std::uint64_t hash = 0;
     double gpu_ms = 0;
-    for (std::size_t i = 0; i < eyes_.size(); ++i) {
-        const SizePx size = instance_.view_sizes()[i];
+    for (std::size_t i = 0; i < eyes_.views.size(); ++i) {
         const bool watched = watched_ && i == 0;
-        const bool read = options_.hash_pictures || watched;
-        RenderedFrame frame = scene.renderer.render(size, camera_of(eyes_[i], scene.camera), method,
-                                                    picture_point(eyes_[i], size, gazed_at), read);
-        if (!frame.statistics.passes.empty()) gpu_ms += frame.statistics.passes.back().ms;
-        if (read) {
-            RenderedPicture seen{frame.image.size, std::move(frame.image.rgba), 0};
-            seen.hash = hash_of_pixels(seen.rgba);
-            hash = std::rotl(hash, 1) ^ seen.hash;
-            if (watched) options_.audience->sees(seen, turn_->display_time);
-        }
-        if (!hand_over(i, scene.renderer.target(), read ? kUseTransferSource : kUseColorTarget,
-                       picture.patch))
-            return false;
+        const EyePictures::Drawn drawn = pictures_.draw(eyes_, i, picture, options_.hash_pictures || watched);
+        gpu_ms += drawn.gpu_ms;
+        if (drawn.pixels) hash = EyePictures::combine(hash, *drawn.pixels);
+        if (watched) options_.audience->sees(*drawn.pixels, turn_->display_time);
+        if (!hand_over(i, *drawn.image, drawn.use, picture.patch)) return false;
     }
     if (options_.hash_pictures) shown.image_hash = hash;
     if (gpu_ms > 0) shown.gpu_time = Duration::from_ms(gpu_ms);
@@ -256,7 +214,7 @@ bool OpenXrStage::draw_stimulus(const Picture& picture, ShownFrame& shown) {
 
 bool OpenXrStage::draw_page(const Picture& picture) {
     const Page& page = page_for(picture);
-    for (std::size_t i = 0; i < eyes_.size(); ++i)
+    for (std::size_t i = 0; i < eyes_.views.size(); ++i)
         if (!hand_over(i, page.eyes[i], kUseTransferSource, picture.patch)) return false;
     return true;
 }
@@ -299,20 +257,13 @@ bool OpenXrStage::hand_over(std::size_t view, const GpuImage& picture, const Res
     return session_->state() != SessionState::lost;
 }
 
-OpenXrStage::LoadedScene& OpenXrStage::scene_called(const std::string& name) {
-    std::unique_ptr<LoadedScene>& loaded = scenes_[name];
-    if (!loaded) {
-        const Scene data = load_scene(name);
-        loaded.reset(new LoadedScene{FrameRenderer(gpu_, data), data.cameras.front()});
-    }
-    return *loaded;
-}
-
 void OpenXrStage::prepare(const std::string& scene, const MethodSetting& method) {
-    LoadedScene& loaded = scene_called(scene);
-    const SizePx size = instance_.view_sizes().front();
-    loaded.renderer.render(size, camera_of(eyes_.front(), loaded.camera),
-                           {method.method, method.numbers, method.words}, centre_of(size), false);
+    Picture picture;
+    picture.kind = PictureKind::stimulus;
+    picture.scene = scene;
+    picture.method = method;
+    picture.fovea = centre_of(view_.size);
+    pictures_.draw(eyes_, 0, picture, false);
 }
 
 const OpenXrStage::Page& OpenXrStage::page_for(const Picture& picture) {
@@ -324,7 +275,8 @@ const OpenXrStage::Page& OpenXrStage::page_for(const Picture& picture) {
     }
     const Image flat = pages_->draw(picture);
     Page page{picture, {}};
-    for (std::size_t i = 0; i < eyes_.size(); ++i) page.eyes.push_back(on_device(gpu_, seen_by(i, flat)));
+    for (std::size_t i = 0; i < eyes_.views.size(); ++i)
+        page.eyes.push_back(on_device(gpu_, seen_by(i, flat)));
     drawn_pages_.push_front(std::move(page));
     if (drawn_pages_.size() > kPagesKept) drawn_pages_.pop_back();
     return drawn_pages_.front();
@@ -332,7 +284,7 @@ const OpenXrStage::Page& OpenXrStage::page_for(const Picture& picture) {
 
 // The page as a board straight ahead at the gaze distance, as big as it is on view().
 Image OpenXrStage::seen_by(std::size_t view, const Image& page) const {
-    const SizePx size = instance_.view_sizes()[view];
+    const SizePx size = eyes_.sizes[view];
     Image seen = blank_image(size);
     const double per_m = view_.distance_px() / options_.gaze_distance_m;
     const PointPx centre = centre_of(view_.size);
@@ -346,7 +298,7 @@ Image OpenXrStage::seen_by(std::size_t view, const Image& page) const {
     for (int y = 0; y < size.height; ++y) {
         for (int x = 0; x < size.width; ++x, out += 4) {
             const Vector3 on_board =
-                point_on_plane(eyes_[view], size, {x + 0.5, y + 0.5}, options_.gaze_distance_m);
+                point_on_plane(eyes_.views[view], size, {x + 0.5, y + 0.5}, options_.gaze_distance_m);
             const double px = centre.x + on_board.x * per_m - 0.5, py = centre.y - on_board.y * per_m - 0.5;
             if (!(px > -1 && py > -1 && px < page.size.width && py < page.size.height)) continue;
             const int left = static_cast<int>(std::floor(px)), top = static_cast<int>(std::floor(py));

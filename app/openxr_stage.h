@@ -2,7 +2,6 @@
 #pragma once
 
 #include <list>
-#include <map>
 #include <memory>
 #include <optional>
 #include <stop_token>
@@ -10,20 +9,18 @@
 #include <string_view>
 #include <vector>
 
+#include "app/eye_pictures.h"
 #include "app/headless_stage.h"
 #include "app/participant_pages.h"
 #include "devices/clock.h"
 #include "devices/openxr/openxr_session.h"
-#include "renderer/frame_renderer.h"
 #include "renderer/gpu.h"
 #include "study/stage.h"
 
 namespace parafovea {
 
 struct OpenXrStageOptions {
-    // How far away the participant is taken to look. It turns the one gaze direction that a tracker gives
-    // into each eye's own; half a metre or infinity instead of two metres moves it by 1.4 or 0.9 degrees.
-    double gaze_distance_m = 2;
+    double gaze_distance_m = 2;    // see Eyes
     bool hash_pictures = false;    // reads every stimulus back; image_hash is then of all views together
     bool validation = false;       // Vulkan's validation layer
     std::stop_token stop;          // ends waiting for a headset that nobody wears
@@ -39,7 +36,7 @@ struct OpenXrStageOptions {
 // else meanwhile) shows the picture before once more, and counts as missed. Faults in ShownFrame:
 // "display_time_not_positive", "display_time_backwards", "display_time_far_ahead", "session_lost" (a new one
 // was made), "headset_off" (taken off, and on again), "not_visible" and "not_focused" (the runtime showed
-// something else, or over it).
+// something else, or over it), "eyes_moved" (the distance of the eyes was turned to another: eyes() changed).
 class OpenXrStage final : public Stage {
   public:
     // Waits until the headset shows our frames. Throws one line if there is no runtime, headset or device,
@@ -62,12 +59,14 @@ class OpenXrStage final : public Stage {
     // 1280 x 1440 at 70.00 Hz".
     std::string description() const;
 
+    // As they are now. What replay needs to draw the pictures again.
+    const Eyes& eyes() const { return eyes_; }
+
     OpenXrSession& session() { return *session_; }
     const OpenXrInstance& instance() const { return instance_; }
     const Gpu& gpu() const { return gpu_; }
 
   private:
-    struct LoadedScene;
     struct Page;
 
     void note(std::string_view fault);
@@ -77,7 +76,6 @@ class OpenXrStage final : public Stage {
     bool draw_page(const Picture& picture);
     bool hand_over(std::size_t view, const GpuImage& picture, const ResourceUse& use,
                    std::optional<bool> patch);
-    LoadedScene& scene_called(const std::string& name);
     const Page& page_for(const Picture& picture);
     Image seen_by(std::size_t view, const Image& page) const;
 
@@ -86,7 +84,8 @@ class OpenXrStage final : public Stage {
     OpenXrInstance instance_;
     Gpu gpu_;
     std::unique_ptr<OpenXrSession> session_;
-    std::vector<XrView> eyes_;  // of the turn that runs
+    EyePictures pictures_;
+    Eyes eyes_;  // of the turn that runs
     ViewGeometry view_;
     double refresh_hz_ = 0;
     std::optional<OpenXrFrame> turn_;
@@ -100,7 +99,6 @@ class OpenXrStage final : public Stage {
     std::unique_ptr<ParticipantPages> pages_;
     std::list<Page> drawn_pages_;  // the one used last in front
     GpuImage black_, white_;       // the photodiode's patch
-    std::map<std::string, std::unique_ptr<LoadedScene>> scenes_;
 };
 
 }  // namespace parafovea

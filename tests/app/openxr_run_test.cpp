@@ -297,9 +297,11 @@ TEST_F(HeadsetSession, TheProgramRunsItFromTheCommandLineAndVerifiesIt) {
         return std::system(line.c_str());
     };
     const std::string folder = (folder_ / "data").string();
-    ASSERT_EQ(shell(program + " run " + (folder_ / "study.toml").string() +
-                    " --participant P01 --display openxr --controller simulated --seed 3 --data " + folder),
-              0)
+    ASSERT_EQ(
+        shell(program + " run " + (folder_ / "study.toml").string() +
+              " --participant P01 --display openxr --hash-pictures --controller simulated --seed 3 --data " +
+              folder),
+        0)
         << text_of(output);
     layers.expect_silence();
 
@@ -314,6 +316,8 @@ TEST_F(HeadsetSession, TheProgramRunsItFromTheCommandLineAndVerifiesIt) {
     for (const TrialRow& row : rows.trials) EXPECT_FALSE(read_gaze(session, row.planned.number).empty());
 
     ASSERT_EQ(shell(program + " replay --verify " + session.string()), 0) << text_of(output);
+    // Two intervals of two trials, 42 frames each, and each a picture for both eyes.
+    EXPECT_THAT(text_of(output), testing::HasSubstr("168 pictures rendered and compared"));
     for (const char* const complaint : {"VUID", "UNASSIGNED", "SYNC-HAZARD", "Validation Error"})
         EXPECT_THAT(text_of(output), testing::Not(testing::HasSubstr(complaint)));
 }
