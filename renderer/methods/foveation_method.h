@@ -32,11 +32,25 @@ struct ShadingSource {
     std::vector<ShaderConstant> constants;
 };
 
+struct Jitter {
+    float x = 0;
+    float y = 0;
+
+    bool operator==(const Jitter&) const = default;
+};
+
+// Tells the pipelines of a method made with a push constant range of sizeof(Jitter); see shaders/jitter.glsl.
+void push_jitter(VkCommandBuffer commands, VkPipelineLayout layout, const Jitter& jitter);
+
 struct MethodFrame {
     VkCommandBuffer commands = VK_NULL_HANDLE;
     VkDescriptorSet shading_set = VK_NULL_HANDLE;
     const GpuImage* target = nullptr;  // of the screen's size; in kUseColorTarget before and after
     PassTimer* timer = nullptr;        // passes are called pass_1 (shading), pass_2 (resampling), post
+    // Shifts every sample of the method's own grid, in samples of that grid, each in [-0.5, 0.5): pixels at
+    // full resolution, texels in a reduced buffer, whose resampling takes the shift back. A scene of meshes
+    // is cut into pixels before any method samples it; CameraView::jitter_px shifts those.
+    Jitter jitter;
 };
 
 struct MethodStatistics {

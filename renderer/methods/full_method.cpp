@@ -27,7 +27,7 @@ std::span<const std::uint32_t> code_for(ShadedThing thing) {
 }  // namespace
 
 FullMethod::FullMethod(Gpu& gpu, const ShadingSource& source, VkFormat target_format)
-    : layout_(make_pipeline_layout(gpu, {source.layout})),
+    : layout_(make_pipeline_layout(gpu, {source.layout}, sizeof(Jitter))),
       pipeline_(make_fullscreen_pipeline(gpu, code_for(source.thing), layout_.get(), {target_format},
                                          source.constants)) {}
 
@@ -43,6 +43,7 @@ void FullMethod::record(const MethodFrame& frame) {
     frame.timer->start(frame.commands, "pass_1");
     begin_rendering(frame.commands, frame.target->extent(),
                     {ColorTarget{.view = frame.target->view(), .discard = true}});
+    push_jitter(frame.commands, layout_.get(), frame.jitter);
     draw_fullscreen(frame.commands, pipeline_.get(), layout_.get(), std::array{frame.shading_set});
     vkCmdEndRendering(frame.commands);
     frame.timer->stop(frame.commands);

@@ -190,7 +190,7 @@ KfrMethod::Pipelines KfrMethod::make_pipelines() const {
 void KfrMethod::record(const MethodFrame& frame) {
     KfrTargets& t = targets_.front();
     frame.timer->start(frame.commands, "pass_1");
-    if (setting_.culling && t.mask_stale) record_mask(frame.commands);
+    if (setting_.culling && (t.mask_stale || t.mask_jitter != frame.jitter)) record_mask(frame);
     record_shading(frame);
     if (setting_.internal_filter) record_internal_filter(frame.commands);
     frame.timer->stop(frame.commands);
@@ -198,10 +198,10 @@ void KfrMethod::record(const MethodFrame& frame) {
     frame.timer->start(frame.commands, "pass_2");
     if (setting_.post_filter) {
         image_barrier(frame.commands, t.screen_linear, t.fresh ? kUseNone : kUseSampled, kUseColorTarget);
-        record_resampling(frame.commands, t.screen_linear);
+        record_resampling(frame, t.screen_linear);
         image_barrier(frame.commands, t.screen_linear, kUseColorTarget, kUseSampled);
     } else {
-        record_resampling(frame.commands, *frame.target);
+        record_resampling(frame, *frame.target);
     }
     frame.timer->stop(frame.commands);
 
@@ -230,6 +230,7 @@ void KfrMethod::record_inset(const MethodFrame& frame) {
     begin_rendering(frame.commands, frame.target->extent(), {ColorTarget{.view = frame.target->view()}});
     vkCmdBeginQuery(frame.commands, t.counts.get(), 1, VK_QUERY_CONTROL_PRECISE_BIT);
     vkCmdBindPipeline(frame.commands, VK_PIPELINE_BIND_POINT_GRAPHICS, now_->inset.get());
+    push_jitter(frame.commands, layouts_.shading.get(), frame.jitter);
     const std::array sets{frame.shading_set, t.map_set.get()};
     vkCmdBindDescriptorSets(frame.commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layouts_.shading.get(), 0,
                             sets.size(), sets.data(), 0, nullptr);
@@ -238,8 +239,9 @@ void KfrMethod::record_inset(const MethodFrame& frame) {
     vkCmdEndRendering(frame.commands);
 }
 
-void KfrMethod::record_mask(VkCommandBuffer commands) {
+void KfrMethod::record_mask(const MethodFrame& frame) {
     KfrTargets& t = targets_.front();
+    const VkCommandBuffer commands = frame.commands;
     vkCmdResetQueryPool(commands, t.counts.get(), 0, 1);
     ResourceUse before = kUseDepthTest;
     before.layout = VK_IMAGE_LAYOUT_UNDEFINED;
@@ -247,11 +249,13 @@ void KfrMethod::record_mask(VkCommandBuffer commands) {
     const DepthTarget depth{.view = t.mask.view(), .clear = true, .clear_depth = 0};
     begin_rendering(commands, t.mask.extent(), {}, &depth);
     vkCmdBeginQuery(commands, t.counts.get(), 0, VK_QUERY_CONTROL_PRECISE_BIT);
+    push_jitter(commands, layouts_.mask.get(), frame.jitter);
     draw_fullscreen(commands, now_->mask.get(), layouts_.mask.get(), std::array{t.map_set.get()});
     vkCmdEndQuery(commands, t.counts.get(), 0);
     vkCmdEndRendering(commands);
     image_barrier(commands, t.mask, kUseDepthTarget, kUseDepthTest);
     t.mask_stale = false;
+    t.mask_jitter = frame.jitter;
 }
 
 void KfrMethod::record_shading(const MethodFrame& frame) {
@@ -262,6 +266,7 @@ void KfrMethod::record_shading(const MethodFrame& frame) {
     begin_rendering(frame.commands, t.reduced.extent(),
                     {ColorTarget{.view = t.reduced.view(), .clear = t.fresh}},
                     setting_.culling ? &depth : nullptr);
+    push_jitter(frame.commands, layouts_.shading.get(), frame.jitter);
     draw_fullscreen(frame.commands, now_->shading.get(), layouts_.shading.get(),
                     std::array{frame.shading_set, t.map_set.get()});
     vkCmdEndRendering(frame.commands);
@@ -295,9 +300,11 @@ void KfrMethod::record_internal_filter(VkCommandBuffer commands) {
     image_barrier(commands, t.reduced, kUseTransferTarget, kUseSampled);
 }
 
-void KfrMethod::record_resampling(VkCommandBuffer commands, const GpuImage& target) {
+void KfrMethod::record_resampling(const MethodFrame& frame, const GpuImage& target) {
     KfrTargets& t = targets_.front();
+    const VkCommandBuffer commands = frame.commands;
     begin_rendering(commands, target.extent(), {ColorTarget{.view = target.view(), .discard = true}});
+    push_jitter(commands, layouts_.resample.get(), frame.jitter);
     draw_fullscreen(commands, now_->resample.get(), layouts_.resample.get(),
                     std::array{t.resample_set.get()});
     vkCmdEndRendering(commands);

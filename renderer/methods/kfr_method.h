@@ -40,10 +40,10 @@ class KfrMethod : public FoveationMethod {
 
     PipelineKey pipeline_key() const;
     Pipelines make_pipelines() const;
-    void record_mask(VkCommandBuffer commands);
+    void record_mask(const MethodFrame& frame);
     void record_shading(const MethodFrame& frame);
     void record_internal_filter(VkCommandBuffer commands);
-    void record_resampling(VkCommandBuffer commands, const GpuImage& target);
+    void record_resampling(const MethodFrame& frame, const GpuImage& target);
     void record_inset(const MethodFrame& frame);
 
     Gpu& gpu_;

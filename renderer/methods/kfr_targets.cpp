@@ -76,9 +76,9 @@ KfrLayouts::KfrLayouts(Gpu& gpu, VkDescriptorSetLayout shading_layout)
     : map_set(gpu, {kMapBinding}),
       reduced_set(gpu, {kFirstImage}),
       map_and_image_set(gpu, {kMapBinding, kSecondImage}),
-      mask(make_pipeline_layout(gpu, {map_set.layout()})),
-      shading(make_pipeline_layout(gpu, {shading_layout, map_set.layout()})),
+      mask(make_pipeline_layout(gpu, {map_set.layout()}, sizeof(Jitter))),
+      shading(make_pipeline_layout(gpu, {shading_layout, map_set.layout()}, sizeof(Jitter))),
       filter(make_pipeline_layout(gpu, {reduced_set.layout()})),
-      resample(make_pipeline_layout(gpu, {map_and_image_set.layout()})) {}
+      resample(make_pipeline_layout(gpu, {map_and_image_set.layout()}, sizeof(Jitter))) {}
 
 }  // namespace parafovea

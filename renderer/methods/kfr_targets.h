@@ -43,7 +43,8 @@ class KfrTargets {
     SizePx buffer;
     PointPx gaze;
     bool mask_stale = true;
-    bool fresh = true;  // the images have never been written
+    Jitter mask_jitter;  // of the samples that the mask is about
+    bool fresh = true;   // the images have never been written
 
     GpuBuffer map;
     GpuImage mask;           // depth 1 where a texel is needed, else 0; with culling

@@ -2,13 +2,14 @@
 // where on the screen it lies). A texel off the screen takes the nearest edge.
 #version 460
 #define METHOD_SET 1
+#include "jitter.glsl"
 #include "shade.glsl"
 #include "map_block.glsl"
 
 layout(location = 0) out vec4 color;
 
 void main() {
-    vec2 texel = gl_FragCoord.xy;
+    vec2 texel = gl_FragCoord.xy + jitter;
     vec2 position = clamp(screen_from_buffer(map, texel), vec2(0.5), map.screen_size - 0.5);
     color = vec4(shade_sample(position, sample_spacing(map, texel)), 1.0);
 }

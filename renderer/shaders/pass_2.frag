@@ -2,6 +2,7 @@
 // 3.2). The buffer goes round in v and ends in u. With EXACT_BILINEAR the weights are full floats.
 #version 460
 #define METHOD_SET 0
+#include "jitter.glsl"
 #include "map_block.glsl"
 
 layout(set = 0, binding = 1) uniform sampler2D reduced;
@@ -31,4 +32,4 @@ vec4 read(vec2 position) { return textureLod(reduced, position / map.buffer_size
 
 #endif
 
-void main() { color = vec4(read(buffer_from_screen(map, gl_FragCoord.xy)).rgb, 1.0); }
+void main() { color = vec4(read(buffer_from_screen(map, gl_FragCoord.xy) - jitter).rgb, 1.0); }

@@ -3,6 +3,7 @@
 // for the others. Errs on the side of needing a texel.
 #version 460
 #define METHOD_SET 0
+#include "jitter.glsl"
 #include "map_block.glsl"
 
 layout(constant_id = 2) const uint kInternalFilter = 0u;
@@ -12,7 +13,7 @@ const float kSlack = 1.0 / 128.0;
 // A texel with more pixels to look at than this is taken as needed.
 const int kMostPixels = 1024;
 
-// Whether the footprint of a pixel, widened by `reach` - 1 texels, holds the texel with this centre.
+// Whether the footprint of a pixel, widened by `reach` - 1 texels, holds the texel with this sample.
 bool reads(ivec2 pixel, vec2 texel, float reach) {
     vec2 position = vec2(pixel) + 0.5;
     // Under the opaque part of the inset nothing is seen.
@@ -58,8 +59,8 @@ bool needed(vec2 texel, float reach) {
 }
 
 void main() {
-    vec2 texel = gl_FragCoord.xy;
-    bool filtered = kInternalFilter != 0u && texel.x + 1.0 >= 0.5 * map.buffer_size.x;
+    vec2 texel = gl_FragCoord.xy + jitter;
+    bool filtered = kInternalFilter != 0u && gl_FragCoord.x + 1.0 >= 0.5 * map.buffer_size.x;
     if (!needed(texel, (filtered ? 2.0 : 1.0) + kSlack)) discard;
     gl_FragDepth = 1.0;
 }

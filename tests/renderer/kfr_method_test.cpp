@@ -39,6 +39,7 @@ struct Case {
     PointPx gaze;
     std::map<std::string, double> numbers;
     std::map<std::string, std::string> words;
+    Jitter jitter;
 };
 
 std::vector<Case> culling_cases(SizePx size) {
@@ -47,19 +48,24 @@ std::vector<Case> culling_cases(SizePx size) {
     for (const PointPx gaze :
          {PointPx{w / 2, h / 2}, PointPx{w / 2 + 0.5, h / 2 + 0.5}, PointPx{0, 0}, PointPx{w, h},
           PointPx{0.3 * w + 0.1, 0.8 * h}, PointPx{-500, h / 2}, PointPx{w + 30, -20}, PointPx{1e6, 1e6}}) {
-        cases.push_back({gaze, {}, {}});
+        cases.push_back({gaze, {}, {}, {}});
     }
-    for (const double alpha : {0.5, 1.0, 16.0}) cases.push_back({{w / 2, h / 2}, {{"alpha", alpha}}, {}});
-    for (const double sigma : {0.7, 2.4, 20.0}) cases.push_back({{w / 3, h / 3}, {{"sigma", sigma}}, {}});
-    cases.push_back({{w / 2, h / 2}, {{"as_printed", 1}}, {}});
-    cases.push_back({{10, 10}, {{"as_printed", 1}, {"alpha", 2}}, {}});
-    cases.push_back({{w / 2, h / 2}, {}, {{"kernel", "sine"}}});
-    cases.push_back({{w / 2, h / 3}, {{"inset", 0.1}}, {}});
-    cases.push_back({{0, h}, {{"inset", 0.3}, {"width_scale", 0.3}, {"height_scale", 1.3}}, {}});
-    cases.push_back({{w / 2, h / 2}, {}, {{"kernel", "linear_mar"}}});
-    cases.push_back({{w, h / 2}, {{"mar_start", 0.2}, {"mar_slope", 5}}, {{"kernel", "linear_mar"}}});
-    cases.push_back({{w / 2, h / 2}, {}, {{"kernel", "exponential"}}});
-    cases.push_back({{w / 2, h / 2}, {{"beta_1", 0.25}, {"beta_3", 0.75}}, {{"kernel", "polynomial"}}});
+    for (const double alpha : {0.5, 1.0, 16.0}) cases.push_back({{w / 2, h / 2}, {{"alpha", alpha}}, {}, {}});
+    for (const double sigma : {0.7, 2.4, 20.0}) cases.push_back({{w / 3, h / 3}, {{"sigma", sigma}}, {}, {}});
+    cases.push_back({{w / 2, h / 2}, {{"as_printed", 1}}, {}, {}});
+    cases.push_back({{10, 10}, {{"as_printed", 1}, {"alpha", 2}}, {}, {}});
+    cases.push_back({{w / 2, h / 2}, {}, {{"kernel", "sine"}}, {}});
+    cases.push_back({{w / 2, h / 3}, {{"inset", 0.1}}, {}, {}});
+    cases.push_back({{0, h}, {{"inset", 0.3}, {"width_scale", 0.3}, {"height_scale", 1.3}}, {}, {}});
+    cases.push_back({{w / 2, h / 2}, {}, {{"kernel", "linear_mar"}}, {}});
+    cases.push_back({{w, h / 2}, {{"mar_start", 0.2}, {"mar_slope", 5}}, {{"kernel", "linear_mar"}}, {}});
+    cases.push_back({{w / 2, h / 2}, {}, {{"kernel", "exponential"}}, {}});
+    cases.push_back({{w / 2, h / 2}, {{"beta_1", 0.25}, {"beta_3", 0.75}}, {{"kernel", "polynomial"}}, {}});
+    // The same gaze four times: a mask for other samples is of no use.
+    for (const Jitter jitter : {Jitter{-0.5f, 0.25f}, Jitter{0.49f, -0.5f}, Jitter{0, 0.3f}, Jitter{}})
+        cases.push_back({{w / 2, h / 2}, {}, {}, jitter});
+    cases.push_back({{w / 4, h / 5}, {{"inset", 0.1}}, {}, {0.4f, -0.3f}});
+    cases.push_back({{w, h / 3}, {{"alpha", 1}}, {{"kernel", "linear_mar"}}, {-0.2f, 0.4f}});
     return cases;
 }
 
@@ -73,9 +79,9 @@ TEST(KfrMethod, PictureIsBitByBitTheSameWithAndWithoutCulling) {
             for (Case c : culling_cases(size)) {
                 c.numbers["internal_filter"] = filter;
                 c.numbers["culling"] = 1;
-                const Image with = culled.draw(kfr(c.numbers, c.words), c.gaze);
+                const Image with = culled.draw(kfr(c.numbers, c.words), c.gaze, c.jitter);
                 c.numbers["culling"] = 0;
-                const Image without = whole.draw(kfr(c.numbers, c.words), c.gaze);
+                const Image without = whole.draw(kfr(c.numbers, c.words), c.gaze, c.jitter);
                 EXPECT_TRUE(with == without) << size.width << "x" << size.height << " gaze " << c.gaze.x
                                              << ", " << c.gaze.y << " filter " << filter;
                 EXPECT_LE(culled.statistics().shaded_samples, whole.statistics().shaded_samples);
@@ -135,6 +141,10 @@ TEST(KfrMethod, SameInputGivesTheSameBitsWhateverWasDrawnBefore) {
     EXPECT_TRUE(gpu.validation_messages().empty());
 }
 
+int red(const Image& image, int x, int y) {
+    return image.rgba[static_cast<std::size_t>(y * image.size.width + x) * 4];
+}
+
 double largest_difference(const Image& a, const Image& b, PointPx centre, double from_px, double to_px) {
     int largest = 0;
     for (int y = 0; y < a.size.height; ++y) {
@@ -164,6 +174,53 @@ TEST(KfrMethod, SmoothPictureStaysWhatItIsEverywhereSeamIncluded) {
             EXPECT_LE(largest_difference(reference, found, gaze, 0, 60), 4) << alpha;
             EXPECT_LE(largest_difference(reference, found, gaze, 0, 1e9), 16) << alpha;
         }
+    }
+    EXPECT_TRUE(gpu.validation_messages().empty());
+}
+
+TEST(KfrMethod, ResamplingTakesTheJitterBack) {
+    Gpu gpu({.validation = true});
+    const SizePx size{640, 360};
+    // A ramp: a sample that is put back in the wrong place by a texel (5 px and more) shows at once.
+    Image ramp{size, {}};
+    for (int y = 0; y < size.height; ++y) {
+        for (int x = 0; x < size.width; ++x) {
+            const auto level = static_cast<std::uint8_t>(64 + x / 5);
+            ramp.rgba.insert(ramp.rgba.end(), {level, static_cast<std::uint8_t>(64 + y / 3), level, 255});
+        }
+    }
+    PictureMethod foveated(gpu, ramp, "kfr");
+    const PointPx gaze{300, 170};
+    for (const double inset : {0.0, 0.08}) {
+        const RenderMethod method = kfr({{"sigma", 4}, {"internal_filter", 0}, {"inset", inset}});
+        const Image still = foveated.draw(method, gaze);
+        for (const Jitter jitter :
+             {Jitter{0.45f, 0}, Jitter{-0.45f, 0}, Jitter{0, 0.45f}, Jitter{0, -0.45f}}) {
+            const Image moved = foveated.draw(method, gaze, jitter);
+            EXPECT_FALSE(moved == still);
+            EXPECT_LE(largest_difference(still, moved, gaze, 20, 160), 2) << jitter.x << ", " << jitter.y;
+        }
+    }
+    EXPECT_TRUE(gpu.validation_messages().empty());
+}
+
+TEST(FullMethod, JitterShiftsEverySampleByThatManyPixels) {
+    Gpu gpu({.validation = true});
+    const SizePx size{32, 16};
+    // Between black and white columns, display-linear values are bilinear: 64 of 255 is a quarter of the way.
+    Image columns{size, {}};
+    for (int i = 0; i < size.width * size.height; ++i) {
+        const std::uint8_t level = i % 2 == 0 ? 0 : 255;
+        columns.rgba.insert(columns.rgba.end(), {level, level, level, 255});
+    }
+    PictureMethod full(gpu, columns, "full");
+    const auto srgb_of = [](double linear) {
+        return linear <= 0.0031308 ? 255 * 12.92 * linear : 255 * (1.055 * std::pow(linear, 1 / 2.4) - 0.055);
+    };
+    for (const float shift : {-0.5f, -0.25f, 0.0f, 0.25f, 0.4f}) {
+        const Image drawn = full.draw({}, {}, {shift, 0.3f});
+        EXPECT_NEAR(red(drawn, 6, 8), srgb_of(std::abs(shift)), 1) << shift;
+        EXPECT_NEAR(red(drawn, 7, 8), srgb_of(1 - std::abs(shift)), 1) << shift;
     }
     EXPECT_TRUE(gpu.validation_messages().empty());
 }

@@ -59,13 +59,13 @@ class PictureMethod {
         set_.set_sampled_image(0, source_.view(), sampler_.get());
     }
 
-    Image draw(const RenderMethod& setting, PointPx gaze) {
+    Image draw(const RenderMethod& setting, PointPx gaze, Jitter jitter = {}) {
         method_->configure(setting);
         method_->prepare(size_, gaze);
         gpu_.submit_and_wait([&](VkCommandBuffer commands) {
             timer_.reset(commands);
             image_barrier(commands, target_, kUseNone, kUseColorTarget);
-            method_->record({commands, set_.get(), &target_, &timer_});
+            method_->record({commands, set_.get(), &target_, &timer_, jitter});
         });
         const std::vector<std::byte> bytes = read_back(gpu_, target_, kUseColorTarget);
         Image image{size_, std::vector<std::uint8_t>(bytes.size())};
