@@ -60,6 +60,13 @@ struct MethodStatistics {
     std::vector<FeatureNote> left_out;
 };
 
+// How far apart neighbouring samples lie: along the line to the gaze and across it (or along the picture's
+// two axes, for a method whose samples lie on a rectangular grid).
+struct SampleSpacing {
+    double radial_px = 1;
+    double tangential_px = 1;
+};
+
 class FoveationMethod {
   public:
     virtual ~FoveationMethod() = default;
@@ -74,6 +81,10 @@ class FoveationMethod {
 
     // Records the drawing of one frame, outside rendering. The same calls give the same picture, bit by bit.
     virtual void record(const MethodFrame& frame) = 0;
+
+    // At a screen position, of what the last prepare() was for. A method that does not say otherwise samples
+    // every pixel.
+    virtual SampleSpacing spacing_at(PointPx) const { return {}; }
 
     // Of the last frame, once it is done.
     virtual MethodStatistics statistics() const = 0;

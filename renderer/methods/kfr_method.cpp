@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <span>
 #include <stdexcept>
 #include <utility>
@@ -308,6 +309,14 @@ void KfrMethod::record_resampling(const MethodFrame& frame, const GpuImage& targ
     draw_fullscreen(commands, now_->resample.get(), layouts_.resample.get(),
                     std::array{t.resample_set.get()});
     vkCmdEndRendering(commands);
+}
+
+SampleSpacing KfrMethod::spacing_at(PointPx position) const {
+    const shared::KernelMap& map = targets_.front().block;
+    const shared::vec2 at{static_cast<float>(position.x), static_cast<float>(position.y)};
+    if (std::hypot(at.x - map.gaze.x, at.y - map.gaze.y) < map.inset_px) return {};
+    const shared::vec2 spacing = sample_spacing(map, buffer_from_screen(map, at));
+    return {spacing.x, spacing.y};
 }
 
 MethodStatistics KfrMethod::statistics() const {

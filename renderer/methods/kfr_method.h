@@ -24,6 +24,7 @@ class KfrMethod : public FoveationMethod {
     void configure(const KfrSetting& setting);  // already checked
     void prepare(SizePx screen, PointPx gaze) override;
     void record(const MethodFrame& frame) override;
+    SampleSpacing spacing_at(PointPx position) const override;
     MethodStatistics statistics() const override;
 
   private:

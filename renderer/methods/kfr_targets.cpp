@@ -66,7 +66,7 @@ void KfrTargets::set_gaze(PointPx wanted) {
     gaze = wanted;
     has_gaze_ = true;
     mask_stale = true;
-    shared::KernelMap block = make_kernel_map(screen, gaze, setting.kernel);
+    block = make_kernel_map(screen, gaze, setting.kernel);
     block.inset_px = static_cast<float>(setting.inset * screen.width);
     block.inset_rim_px = std::min(kLargestRimPx, 0.5f * block.inset_px);
     map.write(block);

@@ -46,6 +46,7 @@ class KfrTargets {
     Jitter mask_jitter;  // of the samples that the mask is about
     bool fresh = true;   // the images have never been written
 
+    shared::KernelMap block{};  // what `map` holds
     GpuBuffer map;
     GpuImage mask;           // depth 1 where a texel is needed, else 0; with culling
     GpuImage reduced;        // what Pass I shades and Pass II reads

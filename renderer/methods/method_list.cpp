@@ -3,6 +3,8 @@
 
 #include <stdexcept>
 
+#include "renderer/eye_dominance.h"
+#include "renderer/frame_stages.h"
 #include "renderer/methods/full_method.h"
 #include "renderer/methods/kfr_method.h"
 #include "renderer/methods/method_parameters.h"
@@ -46,7 +48,9 @@ std::unique_ptr<FoveationMethod> make_method(Gpu& gpu, const std::string& name, 
     refuse(name);
 }
 
-void check(const RenderMethod& method) {
+void check(const RenderMethod& wanted) {
+    RenderMethod method = method_for_dominant_eye(wanted);
+    take_frame_stages(method);
     if (method.name == "full") return MethodParameters(method).check_all_taken();
     if (method.name == "kfr") return static_cast<void>(kfr_setting(method));
     refuse(method.name);

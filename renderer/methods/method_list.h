@@ -19,7 +19,7 @@ const std::vector<MethodName>& method_names();
 std::unique_ptr<FoveationMethod> make_method(Gpu& gpu, const std::string& name, const ShadingSource& source);
 
 // Throws std::runtime_error with one line if there is no such method or a parameter is unknown or out of
-// range. Needs no device.
+// range; the parameters of frame_stages.h and eye_dominance.h are every method's. Needs no device.
 void check(const RenderMethod& method);
 
 }  // namespace parafovea

@@ -1,0 +1,23 @@
+// How far away a ray-marched scene is: reversed depth (near / distance along the view axis, 0 for the sky), as the depth
+// image of a scene of meshes has it. Runs over a coarser picture of the screen.
+#version 460
+#include "shading.glsl"
+
+layout(location = 0) out float depth;
+
+// How many pixels of the screen a texel is wide and high.
+layout(push_constant) uniform Push { vec2 pixels_per_texel; };
+
+void main() {
+    vec2 at = gl_FragCoord.xy * pixels_per_texel;
+    vec3 ray = camera.ray_origin.xyz + at.x * camera.ray_per_px_x.xyz + at.y * camera.ray_per_px_y.xyz;
+    float stretch = length(ray);
+    vec3 direction = ray / stretch;
+    float court = meet_court(camera.eye.xyz, direction).distance;
+    vec2 span = solids_span(camera.eye.xyz, direction, 0.0);
+    span.y = min(span.y, court > 0.0 ? court : 1e9);
+    float cone = length(camera.ray_per_px_x.xyz) * pixels_per_texel.x;
+    float solid = trace_solids(camera.eye.xyz, direction, span, max(0.35 * cone, 2e-4));
+    float distance = solid > 0.0 ? solid : court;
+    depth = distance > 0.0 ? camera.eye.w * stretch / distance : 0.0;
+}
