@@ -312,40 +312,5 @@ TEST(KfrMethod, PostFilterSmoothsThePeripheryOnlyAndNothingWhenOff) {
     EXPECT_TRUE(gpu.validation_messages().empty());
 }
 
-TEST(MethodList, RefusesUnknownMethodsParametersAndValuesInOneLine) {
-    const auto message = [](const RenderMethod& method) {
-        try {
-            check(method);
-        } catch (const std::runtime_error& error) {
-            return std::string(error.what());
-        }
-        return std::string();
-    };
-    EXPECT_EQ(message({}), "");
-    EXPECT_EQ(message(kfr({{"sigma", 1.2}, {"alpha", 3}, {"culling", 0}}, {{"kernel", "sine"}})), "");
-    EXPECT_NE(message({"kfz", {}, {}}).find("there are: full, kfr"), std::string::npos);
-    EXPECT_NE(message(kfr({{"sigmma", 1.2}})).find("\"sigmma\""), std::string::npos);
-    EXPECT_NE(message({"full", {{"sigma", 1.8}}, {}}).find("\"sigma\""), std::string::npos);
-    EXPECT_NE(message(kfr({{"sigma", -1}})).find("sigma = -1"), std::string::npos);
-    EXPECT_NE(message(kfr({{"culling", 0.5}})).find("0 or 1"), std::string::npos);
-    EXPECT_NE(message(kfr({}, {{"kernel", "cubic"}})).find("\"cubic\""), std::string::npos);
-}
-
-TEST(MethodList, EveryMethodOfTheListIsMadeAndDrawsTheSamePictureTwice) {
-    Gpu gpu({.validation = true});
-    const SizePx size{160, 90};
-    const Image picture = noise_picture(size);
-    for (const MethodName& name : method_names()) {
-        SCOPED_TRACE(name.name);
-        EXPECT_NO_THROW(check({name.name, {}, {}}));
-        PictureMethod method(gpu, picture, name.name);
-        const Image once = method.draw({name.name, {}, {}}, {70, 40});
-        EXPECT_TRUE(once == method.draw({name.name, {}, {}}, {70, 40}));
-        EXPECT_LE(method.statistics().shaded_samples, 160U * 90U);
-        EXPECT_GT(method.statistics().shaded_samples, 0U);
-    }
-    EXPECT_TRUE(gpu.validation_messages().empty());
-}
-
 }  // namespace
 }  // namespace parafovea

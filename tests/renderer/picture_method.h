@@ -73,6 +73,7 @@ class PictureMethod {
         return image;
     }
 
+    SampleSpacing spacing_at(PointPx position) const { return method_->spacing_at(position); }
     MethodStatistics statistics() const { return method_->statistics(); }
     std::vector<PassTimer::Pass> passes() const { return timer_.passes(); }
 

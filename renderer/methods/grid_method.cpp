@@ -1,0 +1,299 @@
+// Records the passes of methods on sample grids.
+#include "renderer/methods/grid_method.h"
+
+#include <algorithm>
+#include <span>
+#include <stdexcept>
+#include <utility>
+
+#include "shader_code/fullscreen_vert.h"
+#include "shader_code/grid_mask.h"
+#include "shader_code/grid_mask_detail.h"
+#include "shader_code/grid_resolve.h"
+#include "shader_code/grid_resolve_detail.h"
+#include "shader_code/grid_shade_meshes.h"
+#include "shader_code/grid_shade_picture.h"
+#include "shader_code/grid_shade_primitives.h"
+#include "shader_code/inset_meshes.h"
+#include "shader_code/inset_picture.h"
+#include "shader_code/inset_primitives.h"
+#include "shader_code/inset_vert.h"
+#include "shader_code/tile_detail.h"
+
+namespace parafovea {
+namespace {
+
+// How many settings may take turns on one screen before buffers are made anew.
+constexpr std::size_t kMostTargets = 4;
+constexpr std::uint32_t kInsetQuery = 2;
+
+using Code = std::span<const std::uint32_t>;
+
+Code shading_code_for(ShadedThing thing) {
+    switch (thing) {
+        case ShadedThing::meshes:
+            return shader_code::grid_shade_meshes;
+        case ShadedThing::primitives:
+            return shader_code::grid_shade_primitives;
+        case ShadedThing::picture:
+            return shader_code::grid_shade_picture;
+    }
+    return {};
+}
+
+Code inset_code_for(ShadedThing thing) {
+    switch (thing) {
+        case ShadedThing::meshes:
+            return shader_code::inset_meshes;
+        case ShadedThing::primitives:
+            return shader_code::inset_primitives;
+        case ShadedThing::picture:
+            return shader_code::inset_picture;
+    }
+    return {};
+}
+
+std::vector<ShaderConstant> joined(std::vector<ShaderConstant> a, const std::vector<ShaderConstant>& b) {
+    a.insert(a.end(), b.begin(), b.end());
+    return a;
+}
+
+}  // namespace
+
+GridMethod::GridMethod(Gpu& gpu, const ShadingSource& source, const GridFormats& formats, GridPlanner planner)
+    : gpu_(gpu),
+      source_(source),
+      formats_(formats),
+      planner_(planner),
+      sets_(gpu),
+      mask_layout_(make_pipeline_layout(gpu, {sets_.placing.layout()}, sizeof(Jitter))),
+      shading_layout_(make_pipeline_layout(gpu, {source.layout, sets_.placing.layout()}, sizeof(Jitter))),
+      reading_layout_(make_pipeline_layout(gpu, {sets_.reading.layout()}, sizeof(Jitter))),
+      inset_layout_(make_pipeline_layout(gpu, {source.layout, sets_.inset.layout()}, sizeof(Jitter))) {}
+
+void GridMethod::configure(const RenderMethod& method) {
+    if (method == method_) return;
+    MethodParameters parameters(method);
+    planner_(parameters, {64, 64}, {32, 32});
+    parameters.check_all_taken();
+    method_ = method;
+}
+
+void GridMethod::prepare(SizePx screen, PointPx gaze) {
+    MethodParameters parameters(method_);
+    const GridPlan plan = planner_(parameters, screen, gaze);
+    const PipelineKey key{plan.kind, plan.culling ? 1U : 0U, plan.interpolate_tiles ? 1U : 0U,
+                          plan.look_at_detail ? 1U : 0U};
+    auto found_pipelines = pipelines_.find(key);
+    if (found_pipelines == pipelines_.end())
+        found_pipelines = pipelines_.emplace(key, make_pipelines(plan)).first;
+    now_ = &found_pipelines->second;
+
+    const auto found =
+        std::ranges::find_if(targets_, [&](const auto& t) { return t->serves(method_, screen); });
+    if (found != targets_.end()) {
+        targets_.splice(targets_.begin(), targets_, found);
+    } else {
+        // Another screen makes the old ones useless; many settings on one take turns.
+        std::erase_if(targets_, [&](const auto& t) { return t->screen != screen; });
+        while (targets_.size() >= kMostTargets) targets_.pop_back();
+        targets_.push_front(std::make_unique<GridTargets>(gpu_, formats_, method_, screen, plan));
+    }
+    targets().set_plan(plan);
+}
+
+GridMethod::Pipelines GridMethod::make_pipelines(const GridPlan& plan) const {
+    Pipelines made;
+    // See sample_grid.glsl and grid_mask.frag.
+    const std::vector<ShaderConstant> constants{
+        {0, plan.kind}, {1, plan.interpolate_tiles ? 1U : 0U}, {2, plan.culling ? 1U : 0U}};
+
+    GraphicsPipelineDescription mask;
+    mask.vertex = shader_code::fullscreen_vert;
+    mask.layout = mask_layout_.get();
+    mask.depth_format = kGridMaskFormat;
+    mask.depth_test = true;
+    mask.depth_write = true;
+    mask.depth_compare = VK_COMPARE_OP_ALWAYS;
+    mask.fragment = shader_code::grid_mask;
+    mask.constants = joined(constants, {{3, plan.look_at_detail ? 1U : 0U}});
+    made.mask[0] = make_graphics_pipeline(gpu_, mask);
+    if (plan.look_at_detail) {
+        mask.fragment = shader_code::grid_mask_detail;
+        mask.constants = joined(constants, {{3, 2}});
+        made.mask[1] = make_graphics_pipeline(gpu_, mask);
+    }
+
+    GraphicsPipelineDescription shading;
+    shading.vertex = shader_code::fullscreen_vert;
+    shading.fragment = shading_code_for(source_.thing);
+    shading.layout = shading_layout_.get();
+    shading.color_formats = {formats_.samples};
+    shading.depth_format = kGridMaskFormat;
+    shading.depth_test = true;
+    shading.depth_compare = VK_COMPARE_OP_LESS;
+    shading.constants = joined(source_.constants, constants);
+    made.shading = make_graphics_pipeline(gpu_, shading);
+
+    if (plan.look_at_detail) {
+        made.detail = make_fullscreen_pipeline(gpu_, shader_code::tile_detail, reading_layout_.get(),
+                                               {kTileLayerFormat}, constants);
+    }
+    if (plan.kind != shared::kGridScattered) {
+        made.resolve = make_fullscreen_pipeline(
+            gpu_,
+            plan.look_at_detail ? Code(shader_code::grid_resolve_detail) : Code(shader_code::grid_resolve),
+            reading_layout_.get(), {formats_.target}, constants);
+    }
+    if (plan.grid.inset_px > 0) {
+        GraphicsPipelineDescription inset;
+        inset.vertex = shader_code::inset_vert;
+        inset.fragment = inset_code_for(source_.thing);
+        inset.layout = inset_layout_.get();
+        inset.color_formats = {formats_.target};
+        inset.alpha_blend = true;
+        inset.constants = source_.constants;
+        made.inset = make_graphics_pipeline(gpu_, inset);
+    }
+    return made;
+}
+
+void GridMethod::record(const MethodFrame& frame) {
+    GridTargets& t = targets();
+    frame.timer->start(frame.commands, "pass_1");
+    // A mask that follows the detail is another in every frame.
+    if (t.plan.look_at_detail || t.mask_stale || t.mask_jitter != frame.jitter) record_mask(frame, 0);
+    record_shading(frame, 0);
+    if (t.plan.look_at_detail) {
+        record_detail(frame);
+        record_mask(frame, 1);
+        record_shading(frame, 1);
+    }
+    frame.timer->stop(frame.commands);
+
+    frame.timer->start(frame.commands, "pass_2");
+    if (t.fill)
+        t.fill->record(frame.commands, *frame.target);
+    else
+        record_reading(frame);
+    frame.timer->stop(frame.commands);
+
+    if (t.plan.grid.inset_px > 0) {
+        frame.timer->start(frame.commands, "pass_1");
+        record_inset(frame);
+        frame.timer->stop(frame.commands);
+    }
+    t.fresh = false;
+}
+
+void GridMethod::record_mask(const MethodFrame& frame, std::uint32_t round) {
+    GridTargets& t = targets();
+    vkCmdResetQueryPool(frame.commands, t.counts.get(), round, 1);
+    ResourceUse before = kUseDepthTest;
+    before.layout = VK_IMAGE_LAYOUT_UNDEFINED;
+    image_barrier(frame.commands, t.mask, before, kUseDepthTarget);
+    const DepthTarget depth{.view = t.mask.view(), .clear = true, .clear_depth = 0};
+    begin_rendering(frame.commands, t.mask.extent(), {}, &depth);
+    vkCmdBeginQuery(frame.commands, t.counts.get(), round, VK_QUERY_CONTROL_PRECISE_BIT);
+    push_jitter(frame.commands, mask_layout_.get(), frame.jitter);
+    draw_fullscreen(frame.commands, now_->mask[round].get(), mask_layout_.get(),
+                    std::array{t.sets.placing.get()});
+    vkCmdEndQuery(frame.commands, t.counts.get(), round);
+    vkCmdEndRendering(frame.commands);
+    image_barrier(frame.commands, t.mask, kUseDepthTarget, kUseDepthTest);
+    t.mask_stale = false;
+    t.mask_jitter = frame.jitter;
+}
+
+void GridMethod::record_shading(const MethodFrame& frame, std::uint32_t round) {
+    GridTargets& t = targets();
+    const bool first = t.fresh && round == 0;
+    image_barrier(frame.commands, t.samples, first ? kUseNone : kUseSampled, kUseColorTarget);
+    const DepthTarget depth{.view = t.mask.view(), .read_only = true};
+    // What is not shaded keeps its old, finite contents, which the sampler may multiply by 0; a scattered
+    // grid tells by its alpha of 0 what was not shaded.
+    begin_rendering(frame.commands, t.samples.extent(),
+                    {ColorTarget{.view = t.samples.view(), .clear = first || t.fill != nullptr}}, &depth);
+    push_jitter(frame.commands, shading_layout_.get(), frame.jitter);
+    draw_fullscreen(frame.commands, now_->shading.get(), shading_layout_.get(),
+                    std::array{frame.shading_set, t.sets.placing.get()});
+    vkCmdEndRendering(frame.commands);
+    image_barrier(frame.commands, t.samples, kUseColorTarget, kUseSampled);
+}
+
+void GridMethod::record_detail(const MethodFrame& frame) {
+    GridTargets& t = targets();
+    image_barrier(frame.commands, t.layer_of_tile, t.fresh ? kUseNone : kUseSampled, kUseColorTarget);
+    begin_rendering(frame.commands, t.layer_of_tile.extent(),
+                    {ColorTarget{.view = t.layer_of_tile.view(), .discard = true}});
+    push_jitter(frame.commands, reading_layout_.get(), frame.jitter);
+    draw_fullscreen(frame.commands, now_->detail.get(), reading_layout_.get(),
+                    std::array{t.sets.reading.get()});
+    vkCmdEndRendering(frame.commands);
+    image_barrier(frame.commands, t.layer_of_tile, kUseColorTarget, kUseSampled);
+}
+
+void GridMethod::record_reading(const MethodFrame& frame) {
+    begin_rendering(frame.commands, frame.target->extent(),
+                    {ColorTarget{.view = frame.target->view(), .discard = true}});
+    push_jitter(frame.commands, reading_layout_.get(), frame.jitter);
+    draw_fullscreen(frame.commands, now_->resolve.get(), reading_layout_.get(),
+                    std::array{targets().sets.reading.get()});
+    vkCmdEndRendering(frame.commands);
+}
+
+void GridMethod::record_inset(const MethodFrame& frame) {
+    GridTargets& t = targets();
+    constexpr std::uint32_t kVertices = 3 * 64;  // see inset.vert
+    image_barrier(frame.commands, *frame.target, kUseColorTarget, kUseColorTarget);
+    vkCmdResetQueryPool(frame.commands, t.counts.get(), kInsetQuery, 1);
+    begin_rendering(frame.commands, frame.target->extent(), {ColorTarget{.view = frame.target->view()}});
+    vkCmdBeginQuery(frame.commands, t.counts.get(), kInsetQuery, VK_QUERY_CONTROL_PRECISE_BIT);
+    vkCmdBindPipeline(frame.commands, VK_PIPELINE_BIND_POINT_GRAPHICS, now_->inset.get());
+    push_jitter(frame.commands, inset_layout_.get(), frame.jitter);
+    const std::array sets{frame.shading_set, t.sets.inset.get()};
+    vkCmdBindDescriptorSets(frame.commands, VK_PIPELINE_BIND_POINT_GRAPHICS, inset_layout_.get(), 0,
+                            sets.size(), sets.data(), 0, nullptr);
+    vkCmdDraw(frame.commands, kVertices, 1, 0, 0);
+    vkCmdEndQuery(frame.commands, t.counts.get(), kInsetQuery);
+    vkCmdEndRendering(frame.commands);
+}
+
+SampleSpacing GridMethod::spacing_at(PointPx position) const {
+    return spacing_of(targets_.front()->plan, position);
+}
+
+MethodStatistics GridMethod::statistics() const {
+    const GridTargets& t = *targets_.front();
+    const auto count = [&](std::uint32_t query) {
+        std::uint64_t samples = 0;
+        check_vulkan(vkGetQueryPoolResults(gpu_.device(), t.counts.get(), query, 1, sizeof samples, &samples,
+                                           sizeof samples, VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT),
+                     "counting samples");
+        return samples;
+    };
+    MethodStatistics statistics;
+    statistics.buffer = t.plan.buffer;
+    statistics.shaded_samples = count(0);
+    if (t.plan.look_at_detail) statistics.shaded_samples += count(1);
+    if (t.plan.grid.inset_px > 0) statistics.shaded_samples += count(kInsetQuery);
+    const auto note = [&](bool built, const char* name, const char* when_built, const char* when_not) {
+        (built ? statistics.built : statistics.left_out).push_back({name, built ? when_built : when_not});
+    };
+    const bool tiles = t.plan.kind == shared::kGridTiles;
+    const bool scattered = t.fill != nullptr;
+    if (!scattered)
+        note(t.plan.culling, "culling", "only samples that a pixel reads are shaded", "switched off");
+    note(t.plan.grid.inset_px > 0, "native inset", "full resolution around the gaze",
+         "not part of this method");
+    note(tiles, "coarse pixels", "tiles of 16x16 in one of three reductions, drawn by shaders",
+         "not part of this method");
+    note(t.plan.look_at_detail, "samples by detail",
+         "tiles whose coarse samples show too little contrast get no finer ones", "not part of this method");
+    note(scattered, "pull-push", "fills the pixels that are not shaded", "not part of this method");
+    if (tiles)
+        statistics.left_out.push_back({"VK_KHR_fragment_shading_rate", "the same rates on every device"});
+    return statistics;
+}
+
+}  // namespace parafovea
