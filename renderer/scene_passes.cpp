@@ -13,6 +13,7 @@
 #include "renderer/scene_lighting.h"
 #include "renderer/scene_resources.h"
 #include "renderer/scene_shadow.h"
+#include "renderer/scene_surface_textures.h"
 
 namespace parafovea {
 namespace {
@@ -60,8 +61,10 @@ struct ScenePasses::Parts {
     bool build_shadow = false;
     bool build_emission = false;
     bool build_irradiance = false;
+    bool build_late = false;
     std::uint32_t light_count = 0;
     std::optional<SceneResources> resources;
+    SurfaceTextures surface_textures;
     std::optional<SunShadow> shadow;
     std::optional<LampShadows> lamp_shadows;
     bool shadow_drawn = false;
@@ -74,7 +77,7 @@ struct ScenePasses::Parts {
     GpuImage gbuffer, depth, blended, blended_depth;
     GpuImage unused_words, unused_depth, unused_layers;  // stand at the bindings of what was left out
     GpuImage irradiance, light_grid;
-    OwnedSampler nearest, shadow_sampler, linear;
+    OwnedSampler nearest, shadow_sampler, linear, trilinear;
     DescriptorSet set;
     std::vector<std::size_t> in_view;
     std::vector<FeatureNote> built;
@@ -90,6 +93,7 @@ struct ScenePasses::Parts {
     void build_meshes(const Scene& scene);
     void build_irradiance_volume(const Scene& scene);
     void build_light_grid(const Scene& scene);
+    void build_surface_textures(const Scene& scene);
     void describe(const Scene& scene);
     void make_targets();
     void find_visible(glm::vec3 eye);
@@ -102,7 +106,8 @@ void ScenePasses::Parts::build_meshes(const Scene& scene) {
     build_blended = features.alpha_blend || features.transmission || all;
     build_emission = features.emission || features.occlusion_maps || all;
     light_count = all ? shared::kMaxLights : static_cast<std::uint32_t>(scene.lights.size());
-    resources.emplace(gpu, scene, !build_emission);
+    build_late = options.late_textures.value_or(gpu.runs_on_the_cpu()) && can_read_textures_late(scene);
+    resources.emplace(gpu, scene, !build_emission, build_late);
     if (build_shadow) {
         shadow.emplace(gpu, *resources, glm::normalize(scene.sun->direction));
         std::memcpy(lighting.shadow_from_world.columns, &shadow->map_from_world(), sizeof(glm::mat4));
@@ -126,8 +131,10 @@ void ScenePasses::Parts::build_meshes(const Scene& scene) {
     linear = make_sampler(gpu, {.mipmap = VK_SAMPLER_MIPMAP_MODE_NEAREST,
                                 .address_u = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
                                 .address_v = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE});
+    trilinear = make_sampler(gpu, {});
     build_irradiance_volume(scene);
     build_light_grid(scene);
+    build_surface_textures(scene);
     // One texel each, in the state in which they are bound.
     unused_words = GpuImage(gpu, {.format = VK_FORMAT_R32G32B32A32_UINT,
                                   .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT});
@@ -154,7 +161,13 @@ void ScenePasses::Parts::build_meshes(const Scene& scene) {
                               {shared::kBindBlendedDepth, texture},
                               {shared::kBindIrradiance, texture},
                               {shared::kBindLightGrid, texture},
-                              {shared::kBindLampShadow, texture}});
+                              {shared::kBindLampShadow, texture},
+                              {shared::kBindSurfaces, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},
+                              {shared::kBindColors, texture},
+                              {shared::kBindData, texture}});
+    set.set_buffer(shared::kBindSurfaces, surface_textures.materials);
+    set.set_sampled_image(shared::kBindColors, surface_textures.color.view(), trilinear.get());
+    set.set_sampled_image(shared::kBindData, surface_textures.data.view(), trilinear.get());
     set.set_sampled_image(shared::kBindLampShadow,
                           lamp_shadows ? lamp_shadows->maps().view() : unused_layers.view(),
                           shadow_sampler.get());
@@ -208,6 +221,22 @@ void ScenePasses::Parts::build_light_grid(const Scene& scene) {
     upload(gpu, light_grid, std::as_bytes(std::span(grid.lights)));
 }
 
+void ScenePasses::Parts::build_surface_textures(const Scene& scene) {
+    if (build_late) {
+        surface_textures = make_surface_textures(gpu, scene);
+        if (options.force_everything) surface_textures.uses = (1u << shared::kMaterialTextures) - 1;
+        return;
+    }
+    surface_textures.materials = GpuBuffer(gpu, sizeof(shared::SurfaceMaterial),
+                                           VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, BufferPlace::upload);
+    const std::uint32_t white = 0xffffffff;
+    for (GpuImage* image : {&surface_textures.color, &surface_textures.data}) {
+        *image = GpuImage(gpu, {.usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT,
+                                .view_type = VK_IMAGE_VIEW_TYPE_2D_ARRAY});
+        upload(gpu, *image, std::as_bytes(std::span(&white, 1)));
+    }
+}
+
 void ScenePasses::Parts::describe(const Scene& scene) {
     const std::string forced = "forced on";
     if (ray_marched) {
@@ -218,7 +247,10 @@ void ScenePasses::Parts::describe(const Scene& scene) {
         note(build_shadow, "shadow map", features.sun_shadow ? "the sun casts shadows; drawn once" : forced,
              features.sun ? "the sun casts no shadow" : "no sun");
         note(false, "depth", "", "instances are drawn front to back and depth comes with the G-buffer");
-        note(true, "G-buffer", build_emission ? "4 words a pixel" : "2 words a pixel", "");
+        note(true, "G-buffer", build_emission || build_late ? "4 words a pixel" : "2 words a pixel", "");
+        note(build_late, "textures read for each sample",
+             "all of them fit into two arrays; the G-buffer says where to read them",
+             "the G-buffer reads them for each pixel");
         note(build_emission, "emission and occlusion",
              features.emission || features.occlusion_maps ? "materials emit or carry occlusion maps" : forced,
              "no material emits or carries an occlusion map");
@@ -406,6 +438,8 @@ std::vector<ShaderConstant> ScenePasses::shading_constants() const {
         constants.push_back({shared::kConstLights, p.light_count});
         constants.push_back({shared::kConstLampShadow, p.lamp_shadows ? 1u : 0u});
         constants.push_back({shared::kConstIrradiance, p.build_irradiance ? 1u : 0u});
+        constants.push_back({shared::kConstLate, p.build_late ? 1u : 0u});
+        constants.push_back({shared::kConstLateUses, p.surface_textures.uses});
     }
     return constants;
 }

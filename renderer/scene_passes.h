@@ -10,6 +10,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -31,6 +32,10 @@ struct ScenePassOptions {
         false;  // build what the scene does not need, too; to measure what leaving out saves
     bool filter_over_spacing =
         true;  // textures and highlights are filtered over spacing_px, not over one pixel
+    // Textures are read for each sample where the scene allows it (see scene_surface_textures.h), not for
+    // each pixel. When absent: on software devices, which pay for every lookup and have no anisotropic ones
+    // to lose.
+    std::optional<bool> late_textures;
     std::uint32_t samples_per_sample = 1;  // ray-marched: rays for each shade_sample()
 };
 

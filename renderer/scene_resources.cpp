@@ -11,6 +11,7 @@
 #include "shader_code/depth_masked_vert.h"
 #include "shader_code/depth_vert.h"
 #include "shader_code/gbuffer_frag.h"
+#include "shader_code/gbuffer_late_frag.h"
 #include "shader_code/gbuffer_vert.h"
 
 namespace parafovea {
@@ -93,9 +94,10 @@ bool is_moved(const TextureSlot& slot) {
 
 }  // namespace
 
-SceneResources::SceneResources(Gpu& gpu, const Scene& scene, bool lean_gbuffer)
-    : gbuffer_format_(lean_gbuffer ? VK_FORMAT_R32G32_UINT : VK_FORMAT_R32G32B32A32_UINT),
-      vertex_colors_(features_of(scene).vertex_colors) {
+SceneResources::SceneResources(Gpu& gpu, const Scene& scene, bool lean_gbuffer, bool late_textures)
+    : gbuffer_format_(lean_gbuffer && !late_textures ? VK_FORMAT_R32G32_UINT : VK_FORMAT_R32G32B32A32_UINT),
+      vertex_colors_(features_of(scene).vertex_colors),
+      late_textures_(late_textures) {
     upload_geometry(gpu, scene);
     upload_textures(gpu, scene);
     make_materials(gpu, scene);
@@ -184,7 +186,7 @@ void SceneResources::make_materials(Gpu& gpu, const Scene& scene) {
         block.base_color = {m.base_color.x, m.base_color.y, m.base_color.z, m.base_color.w};
         block.emissive = {m.emissive.x, m.emissive.y, m.emissive.z, m.normal_scale};
         block.factors = {m.metallic, m.roughness, m.occlusion_strength, m.alpha_cutoff};
-        block.glass = {m.transmission, m.ior, 0, 0};
+        block.glass = {m.transmission, m.ior, static_cast<float>(materials_.size()), 0};
         for (int i = 0; i < 5; ++i) {
             set_transform(block, i, *slots[i]);
             if (*slots[i]) draw.flags |= 1u << i;
@@ -221,8 +223,10 @@ VkPipeline SceneResources::gbuffer_pipeline(Gpu& gpu, PipelineKey key) {
     OwnedPipeline& pipeline = gbuffer_pipelines_[key];
     if (pipeline) return pipeline.get();
     GraphicsPipelineDescription d;
+    const bool blended = key & (1u << shared::kConstBlendedLayer);
     d.vertex = shader_code::gbuffer_vert;
     d.fragment = shader_code::gbuffer_frag;
+    if (late_textures_ && !blended) d.fragment = shader_code::gbuffer_late_frag;
     d.layout = layout_.get();
     d.vertex_bindings = {{0, sizeof(glm::vec3), VK_VERTEX_INPUT_RATE_VERTEX},
                          {1, sizeof(PackedAttributes), VK_VERTEX_INPUT_RATE_VERTEX}};
@@ -230,7 +234,6 @@ VkPipeline SceneResources::gbuffer_pipeline(Gpu& gpu, PipelineKey key) {
                            {1, 1, VK_FORMAT_R16G16B16A16_SNORM, offsetof(PackedAttributes, frame)},
                            {2, 1, VK_FORMAT_R32G32_SFLOAT, offsetof(PackedAttributes, uv)},
                            {3, 1, VK_FORMAT_R8G8B8A8_UNORM, offsetof(PackedAttributes, color)}};
-    const bool blended = key & (1u << shared::kConstBlendedLayer);
     d.color_formats = {blended ? kBlendedFormat : gbuffer_format_};
     d.depth_format = kDepthFormat;
     d.cull = key & kKeyCullBack ? VK_CULL_MODE_BACK_BIT : VK_CULL_MODE_NONE;

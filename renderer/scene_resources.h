@@ -47,8 +47,9 @@ struct DrawMaterial {
 
 class SceneResources {
   public:
-    // `lean_gbuffer`: two words for each pixel instead of four.
-    SceneResources(Gpu& gpu, const Scene& scene, bool lean_gbuffer);
+    // `lean_gbuffer`: two words for each pixel instead of four. `late_textures`: the G-buffer says where
+    // shading is to read them (see scene_surface_textures.h); it then has four words.
+    SceneResources(Gpu& gpu, const Scene& scene, bool lean_gbuffer, bool late_textures = false);
 
     const std::vector<DrawMesh>& meshes() const { return meshes_; }
     const std::vector<DrawInstance>& instances() const { return instances_; }
@@ -84,6 +85,7 @@ class SceneResources {
     GpuBuffer indices_;
     VkFormat gbuffer_format_ = VK_FORMAT_UNDEFINED;
     bool vertex_colors_ = false;
+    bool late_textures_ = false;
     OwnedPipelineLayout layout_;
     std::map<PipelineKey, OwnedPipeline> gbuffer_pipelines_;
     std::map<std::pair<bool, VkFormat>, OwnedPipeline> depth_pipelines_;

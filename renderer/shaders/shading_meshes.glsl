@@ -13,6 +13,10 @@ layout(set = 0, binding = kBindIrradiance) uniform sampler2DArray irradiance_vol
 layout(set = 0, binding = kBindLightGrid) uniform usampler2D light_grid;
 layout(set = 0, binding = kBindLampShadow) uniform sampler2DArrayShadow lamp_shadows;
 
+layout(set = 0, binding = kBindSurfaces, std430) readonly buffer Surfaces { SurfaceMaterial surfaces[]; };
+layout(set = 0, binding = kBindColors) uniform sampler2DArray surface_colors;
+layout(set = 0, binding = kBindData) uniform sampler2DArray surface_data;
+
 layout(constant_id = kConstSunShadow) const uint kSunShadow = 1u;
 layout(constant_id = kConstBlend) const uint kBlend = 1u;
 layout(constant_id = kConstEmission) const uint kEmission = 1u;
@@ -20,6 +24,8 @@ layout(constant_id = kConstLights) const uint kLights = 0u;
 layout(constant_id = kConstLampShadow) const uint kLampShadow = 0u;
 layout(constant_id = kConstIrradiance) const uint kIrradiance = 0u;
 layout(constant_id = kConstFootprint) const uint kUseFootprint = 1u;
+layout(constant_id = kConstLate) const uint kLate = 0u;
+layout(constant_id = kConstLateUses) const uint kLateUses = 0u;
 
 struct Sample {
     Surface surface;
@@ -37,6 +43,60 @@ Sample sample_of(uvec4 words) {
     s.emitted = vec3(0.0);
     s.occlusion = 1.0;
     return s;
+}
+
+bool any_has(uint texture_binding) { return (kLateUses & (1u << (texture_binding - 1u))) != 0u; }
+
+// Roughness widened by what averaging took from a normal's length (Toksvig 2005).
+float toksvig_roughness(float roughness, vec3 averaged) {
+    float shortness = clamp(dot(averaged, averaged), 0.04, 1.0);
+    float alpha = roughness * roughness;
+    float variance = (1.0 - sqrt(shortness)) / sqrt(shortness);
+    return sqrt(sqrt(clamp(alpha * alpha + min(2.0 * variance, 0.3), 0.0, 1.0)));
+}
+
+// The surface whose textures the G-buffer left to be read here, filtered over reach_px. Its normal is still the
+// geometry's; frame_word and `tilt` (the averaged normal in tangent space) give the textured one.
+Sample late_sample(uvec4 words, float reach_px, out vec3 tilt) {
+    Sample s;
+    SurfaceMaterial m = surfaces[words.x >> 24];
+    vec2 uv = unpacked_position(words.y);
+    float level = unpacked_level(words.z) + log2(max(reach_px, 1.0)) + m.base_color.w;
+    s.surface.normal = unpacked_normal(words.x);
+    s.surface.base_color = m.base_color.rgb;
+    s.surface.metallic = m.factors.x;
+    s.surface.roughness = m.factors.y;
+    s.emitted = m.emissive.rgb;
+    s.occlusion = 1.0;
+    tilt = vec3(0.0, 0.0, 1.0);
+    if (any_has(kBindBaseColor))
+        s.surface.base_color *= textureLod(surface_colors, vec3(uv, m.layers.x), max(level, m.least_levels.x)).rgb;
+    if (any_has(kBindMetallicRoughness)) {
+        vec2 metal_rough = textureLod(surface_data, vec3(uv, m.layers.y), max(level, m.least_levels.y)).bg;
+        s.surface.metallic *= metal_rough.x;
+        s.surface.roughness *= metal_rough.y;
+    }
+    if (any_has(kBindNormal)) {
+        vec3 sampled = textureLod(surface_data, vec3(uv, m.layers.z), max(level, m.least_levels.z)).xyz * 2.0 - 1.0;
+        if (m.emissive.w != 0.0) tilt = sampled;
+    }
+    if (any_has(kBindEmissive))
+        s.emitted *= textureLod(surface_colors, vec3(uv, m.layers.w), max(level, m.least_levels.w)).rgb;
+    if (any_has(kBindOcclusion)) {
+        float open = textureLod(surface_data, vec3(uv, m.occlusion.x), max(level, m.occlusion.y)).r;
+        s.occlusion = 1.0 + m.factors.z * (open - 1.0);
+    }
+    if (any_has(kBindNormal)) {
+        s.surface.roughness = toksvig_roughness(s.surface.roughness, tilt);
+        tilt.xy *= m.emissive.w;
+    }
+    return s;
+}
+
+vec3 tilted(vec3 normal, uint frame_word, vec3 tilt) {
+    vec4 tangent = unpacked_tangent(normal, frame_word);
+    vec3 bitangent = cross(normal, tangent.xyz) * tangent.w;
+    return normalize(tangent.xyz * tilt.x + bitangent * tilt.y + normal * tilt.z);
 }
 
 vec3 ray_at(vec2 position_px) {
@@ -196,6 +256,12 @@ vec3 shade_sample(vec2 position_px, vec2 spacing_px) {
         }
     }
 
+    // Read the textures of what lies behind.
+    uvec4 behind_words = texelFetch(gbuffer, behind_at, 0);
+    Sample behind;
+    vec3 tilt = vec3(0.0, 0.0, 1.0);
+    if (kLate == 1u) behind = late_sample(behind_words, reach_px, tilt);
+
     // Light what lies behind, then lay the blended surface over it: what it lets through, then its own light; its mirror
     // light is not thinned. One loop whose test stands last, so that where nothing blends it is left after one turn even on
     // devices that would run both sides of a branch.
@@ -206,13 +272,14 @@ vec3 shade_sample(vec2 position_px, vec2 spacing_px) {
         bool front = layer == 1u;
         ivec2 here = front ? at : behind_at;
         float depth = front ? glass_depth : texelFetch(depth_image, behind_at, 0).r;
-        uvec4 words = front ? glass_words : texelFetch(gbuffer, behind_at, 0);
+        uvec4 words = front ? glass_words : behind_words;
         vec3 ray = ray_at(vec2(here) + 0.5);
         vec3 point = camera.eye.xyz + ray * (camera.eye.w / max(depth, 1e-7));
         vec3 to_eye = normalize(-ray);
         Sample s = sample_of(words);
         if (kEmission == 1u || front) s.emitted = unpacked_radiance(words.z);
         if (kEmission == 1u && !front) s.occlusion = float(words.w & 0xffu) * (1.0 / 255.0);
+        if (kLate == 1u && !front) s = behind;
         vec3 lets_through = vec3(0.0);
         if (front) {
             float covers = glass.y * (1.0 - glass.z);
@@ -221,6 +288,7 @@ vec3 shade_sample(vec2 position_px, vec2 spacing_px) {
             if (dot(s.surface.normal, to_eye) < 0.0) s.surface.normal = -s.surface.normal;
         } else {
             s.surface.roughness = widened_roughness(s.surface.roughness, s.surface.normal, here, reach_px);
+            if (kLate == 1u && any_has(kBindNormal)) s.surface.normal = tilted(s.surface.normal, words.z, tilt);
         }
         vec3 light = lit(s, point, to_eye);
         if (depth <= 0.0) light = sky_with_sun(normalize(ray));

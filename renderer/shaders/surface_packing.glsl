@@ -55,4 +55,39 @@ vec3 unpacked_radiance(uint word) {
     return vec3(uvec3(word & 511u, (word >> 9) & 511u, (word >> 18) & 511u)) * scale;
 }
 
+// Texture coordinates that repeat, 16 + 16 bits.
+uint packed_position(vec2 uv) {
+    uvec2 q = uvec2(fract(uv) * 65536.0 + 0.5) & 0xffffu;
+    return q.x | (q.y << 16);
+}
+
+vec2 unpacked_position(uint word) { return vec2(uvec2(word & 0xffffu, word >> 16)) * (1.0 / 65536.0); }
+
+// Two axes that stand on a normal and on each other.
+mat2x3 axes_around(vec3 normal) {
+    vec3 axis = abs(normal.x) < 0.9 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0);
+    vec3 a = normalize(cross(normal, axis));
+    return mat2x3(a, cross(normal, a));
+}
+
+// A tangent around a normal that is packed already (13 bits: its first coordinate of the two that add up to 1; the sign
+// of the second), the handedness of the bitangent, and log2 of the texture coordinates' change per pixel (16 bits).
+uint packed_frame(vec3 normal, vec4 tangent, float level) {
+    mat2x3 axes = axes_around(normal);
+    vec2 t = vec2(dot(tangent.xyz, axes[0]), dot(tangent.xyz, axes[1]));
+    float along = t.x / max(abs(t.x) + abs(t.y), 1e-12);
+    uint q = uint(clamp(level + 24.0, 0.0, 31.99) * 2048.0 + 0.5) & 0xffffu;
+    return q | (uint(along * 4095.0 + 4095.5) << 16) | (t.y < 0.0 ? 1u << 29 : 0u) | (tangent.w < 0.0 ? 1u << 30 : 0u);
+}
+
+float unpacked_level(uint word) { return float(word & 0xffffu) * (1.0 / 2048.0) - 24.0; }
+
+// xyz: the unit tangent; w: handedness.
+vec4 unpacked_tangent(vec3 normal, uint word) {
+    mat2x3 axes = axes_around(normal);
+    vec2 t = vec2(float((word >> 16) & 0x1fffu) * (1.0 / 4095.0) - 1.0, 0.0);
+    t.y = (1.0 - abs(t.x)) * ((word & (1u << 29)) != 0u ? -1.0 : 1.0);
+    return vec4(axes * (t * inversesqrt(dot(t, t))), (word & (1u << 30)) != 0u ? -1.0 : 1.0);
+}
+
 #endif

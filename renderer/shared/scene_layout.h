@@ -18,6 +18,9 @@ const uint kBindBlendedDepth = 6u;
 const uint kBindIrradiance = 7u;  // sampler2DArray, the irradiance volume: layer = colour * depth + z
 const uint kBindLightGrid = 8u;   // usampler2D, which lights reach a cell seen from above, a bit each
 const uint kBindLampShadow = 9u;  // sampler2DArrayShadow, a layer for each lamp that casts shadows
+const uint kBindSurfaces = 10u;   // buffer, SurfaceMaterial[]: textures are read for each sample
+const uint kBindColors = 11u;     // sampler2DArray, their textures of colour
+const uint kBindData = 12u;       // sampler2DArray, and those of numbers
 
 // Specialization constants of the shading shaders. Ids below 64 are free for the methods.
 const uint kConstSunShadow = 64u;   // 1: the sun casts shadows
@@ -28,6 +31,8 @@ const uint kConstIrradiance = 68u;  // 1: ambient light varies over the scene
 const uint kConstFootprint = 69u;   // 1: filter over spacing_px, 0: over one pixel
 const uint kConstSamples = 70u;     // ray-marched: samples of one shade_sample()
 const uint kConstLampShadow = 71u;  // 1: some lamps cast shadows
+const uint kConstLate = 72u;        // 1: textures are read for each sample
+const uint kConstLateUses = 73u;    // which textures any material has: bit n - 1 for kBind* n of set 1
 
 // Material of a G-buffer or depth pipeline: set 1.
 const uint kBindMaterial = 0u;  // uniform, MaterialBlock
@@ -64,8 +69,18 @@ struct MaterialBlock {
     vec4 base_color;
     vec4 emissive;        // w: normal scale
     vec4 factors;         // metallic, roughness, occlusion strength, alpha cutoff
-    vec4 glass;           // transmission, index of refraction
+    vec4 glass;           // transmission, index of refraction, number of the material
     vec4 transforms[10];  // two rows for each texture: looked up at (row.xy . uv + row.z)
+};
+
+// A material whose textures are read for each sample; std430.
+struct SurfaceMaterial {
+    vec4 base_color;    // w: log2 of the arrays' size
+    vec4 emissive;      // w: normal scale, 0 without a normal map
+    vec4 factors;       // metallic, roughness, occlusion strength (0 without a map)
+    vec4 layers;        // base colour, metal and roughness, normal, emission
+    vec4 least_levels;  // of each: below it lies no more detail
+    vec4 occlusion;     // layer, least level
 };
 
 const uint kMaxLights = 64u;
