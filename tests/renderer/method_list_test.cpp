@@ -6,7 +6,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
+#include "renderer/methods/method_settings.h"
 #include "tests/renderer/picture_method.h"
 
 namespace parafovea {
@@ -196,6 +198,19 @@ TEST_P(EveryMethod, TellsASpacingThatIsFinestAtTheGaze) {
     EXPECT_LE(here.radial_px * here.tangential_px, 1.6);
     if (foveates()) {
         EXPECT_GT(there.radial_px * there.tangential_px, 1.2 * here.radial_px * here.tangential_px);
+    }
+}
+
+TEST(MethodList, SettingsForComparisonsAreValidAndCoverEveryMethod) {
+    std::set<std::string> labels, methods;
+    for (const NamedSetting& setting : tradeoff_settings()) {
+        EXPECT_NO_THROW(check(setting.method)) << setting.label;
+        EXPECT_FALSE(setting.source.empty()) << setting.label;
+        EXPECT_TRUE(labels.insert(setting.label).second) << setting.label << " twice";
+        methods.insert(setting.method.name);
+    }
+    for (const MethodName& known : method_names()) {
+        EXPECT_TRUE(known.name == "full" || methods.contains(known.name)) << known.name;
     }
 }
 
