@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 
+#include "analysis/expanded_percentile.h"
 #include "analysis/number_text.h"
 #include "analysis/random_draw.h"
 
@@ -102,7 +103,8 @@ Decision decide(const Tally& tally, double criterion, double margin, int resampl
     const auto quantile = [&](double share) {
         return shares[static_cast<std::size_t>(std::lround(share * static_cast<double>(shares.size() - 1)))];
     };
-    decision.bootstrap = {quantile(0.025), quantile(0.975)};
+    const double tail = expanded_percentile_tail(static_cast<std::int64_t>(people));
+    decision.bootstrap = {quantile(tail), quantile(1.0 - tail)};
     NonInferiority test;
     test.margin = margin;
     test.low = std::min(quantile(0.05), proportion(all.identical[*chosen], all.n[*chosen], 0.90).wilson->low);
@@ -126,8 +128,8 @@ std::string decision_text(const Decision& decision) {
     text += " When the participants are drawn anew with replacement (" + std::to_string(decision.resamples) +
             " times), this setting reaches the criterion in " + percent(decision.probability_reached) +
             " of the draws and is the one chosen in " + percent(decision.probability_chosen) +
-            "; its P_I lies between " + percent(decision.bootstrap.low) + " and " +
-            percent(decision.bootstrap.high) + " in 95 % of them.";
+            "; the 95 % interval of its P_I over people is " + percent(decision.bootstrap.low) + " to " +
+            percent(decision.bootstrap.high) + ".";
     if (decision.non_inferiority) {
         const NonInferiority& test = *decision.non_inferiority;
         text += " Non-inferiority with the margin of " + fixed_text(100.0 * test.margin, 0) +

@@ -30,7 +30,8 @@ struct Decision {
     int resamples = 0;     // of whole participants; 0 with fewer than two of them
     double probability_reached = 0.0;  // share of resamples in which the chosen condition's P_I >= criterion
     double probability_chosen = 0.0;   // in which the same condition is chosen again
-    Interval bootstrap;                // 95 % percentile interval of the chosen condition's P_I
+    Interval
+        bootstrap;  // 95 % expanded percentile interval (psychometric_people.h) of the chosen condition's P_I
     std::vector<SigmaShare> highest_sigma;  // in rising order, "none" first
     std::optional<NonInferiority> non_inferiority;
 };

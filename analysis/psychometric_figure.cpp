@@ -81,7 +81,7 @@ std::string psychometric_figure_script(const PsychometricResults& results, const
         const PsychometricFit& fit = fits[i].fit;
         const std::string id = std::to_string(i);
         body += curve_block("$curve" + id, fit, range, 120) + level_block("$level" + id, fit);
-        const CriterionThreshold& at = fit.at_criterion;
+        const CriterionThreshold& at = fits[i].reported();
         std::string note = "α = " + short_text(fits[i].alpha);
         body += "unset arrow\nunset label\n";
         if (at.value && *at.value > range.low && *at.value < range.high) {
@@ -160,7 +160,7 @@ std::string psychometric_figure_description(const PsychometricResults& results,
     text += ". Sigma squared at which " + general_text(100.0 * study.identical_criterion, 4) +
             " percent are answered identical:";
     for (const StudyFit& fit : results.pooled) {
-        const CriterionThreshold& at = fit.fit.at_criterion;
+        const CriterionThreshold& at = fit.reported();
         text += " alpha " + short_text(fit.alpha) + ": " +
                 (at.value ? fixed_text(*at.value, 2) : "outside the function");
         if (at.low && at.high)

@@ -9,8 +9,8 @@
 
 namespace parafovea {
 
-// Writes stem.svg, .pdf and .png: answers, fitted curves, the criterion and each threshold with its credible
-// interval.
+// Writes stem.svg, .pdf and .png: answers, fitted curves, the criterion and each threshold with its 95 %
+// interval (over people; credible for one participant).
 std::string psychometric_figure_script(const PsychometricResults& results, const StudyDescription& study,
                                        const std::filesystem::path& stem);
 

@@ -47,6 +47,17 @@ class Scaled {
         return p;
     }
 
+    // The numbers of given parameters; rates at 0, where a step has no slope, are moved off it.
+    std::vector<double> numbers(const PsychometricParameters& p) const {
+        const double place = model_.sigmoid == Sigmoid::weibull ? std::log(p.threshold) : p.threshold;
+        std::vector<double> q{(place - low_) / span_, std::log(p.width / span_)};
+        const auto root = [&](double rate) { q.push_back(std::max(std::sqrt(rate), 0.05)); };
+        if (model_.dispersion == Dispersion::fitted) root(p.eta);
+        if (!model_.fixed_lambda) root(p.lambda);
+        if (model_.asymptotes == Asymptotes::free) root(p.gamma);
+        return q;
+    }
+
     // log of |d parameters / d q|, without which a walk over q would not sample the posterior of the
     // parameters.
     double log_jacobian(std::span<const double> q) const {
@@ -172,10 +183,12 @@ std::optional<PsychometricFit> fit_psychometric(std::span<const PsychometricLeve
         return std::isfinite(value) ? -value : 1e10;
     };
 
-    // Search from a few places, then polish the best.
+    // Search from a few places, or from the one given, then polish the best.
     Minimum best{{}, kInfinity};
+    if (options.start) best = nelder_mead(cost, scaled.numbers(*options.start), 0.1, 1e-6, 500);
     for (const auto& [place, width] :
          {std::pair{0.5, -0.4}, std::pair{0.25, -1.0}, std::pair{0.8, -0.8}, std::pair{0.9, -0.1}}) {
+        if (options.start) break;
         std::vector<double> start(scaled.size(), 0.15);
         start[0] = place;
         start[1] = std::clamp(
@@ -184,10 +197,11 @@ std::optional<PsychometricFit> fit_psychometric(std::span<const PsychometricLeve
         Minimum found = nelder_mead(cost, start, 0.1, 1e-6, 500);
         if (found.value < best.value) best = std::move(found);
     }
+    const double tolerance = options.start ? 1e-6 : 1e-11;  // a start is given where many fits are wanted
     for (int repeat = 0; repeat < 3; ++repeat) {
         const double before = best.value;
-        best = nelder_mead(cost, best.at, repeat == 0 ? 0.05 : 0.02, 1e-11, 1500);
-        if (before - best.value < 1e-9) break;
+        best = nelder_mead(cost, best.at, repeat == 0 ? 0.05 : 0.02, tolerance, 1500);
+        if (before - best.value < 100 * tolerance) break;
     }
 
     PsychometricFit fit;
@@ -218,6 +232,9 @@ std::optional<PsychometricFit> fit_psychometric(std::span<const PsychometricLeve
     fit.gamma = quantiles(3);
     fit.eta = quantiles(4);
     const Interval at_criterion = quantiles(5);
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    if (std::isfinite(*middle)) fit.at_criterion.median = *middle;
     if (std::isfinite(at_criterion.low)) fit.at_criterion.low = at_criterion.low;
     if (std::isfinite(at_criterion.high)) fit.at_criterion.high = at_criterion.high;
     return fit;

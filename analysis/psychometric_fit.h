@@ -18,12 +18,15 @@ struct PsychometricFitOptions {
     double credibility = 0.95;
     int draws = 10'000;  // from the posterior; 0 for no intervals
     std::uint64_t seed = 1;
+    std::optional<PsychometricParameters> start;  // where to search, for data known to be like others;
+                                                  // several places when absent
 };
 
 // An end is absent when that end of the posterior never crosses the criterion.
 struct CriterionThreshold {
     std::optional<double> value;  // at the most probable parameters
     std::optional<double> low, high;
+    std::optional<double> median;  // of the posterior
 };
 
 struct PsychometricFit {

@@ -6,18 +6,23 @@
 #include "analysis/csv_text.h"
 #include "analysis/number_text.h"
 #include "analysis/parallel.h"
+#include "analysis/psychometric_people.h"
 
 namespace parafovea {
 namespace {
 
 constexpr std::size_t kMostIndividuals = 60;
+constexpr int kResamples = 400;
 
 struct Job {
     std::optional<std::size_t> participant;
     double alpha;
     Sigmoid sigmoid;
     std::vector<PsychometricLevel> levels;
+    const std::vector<std::vector<PsychometricLevel>>*
+        people;  // whose answers the levels join; null for one person
     std::optional<PsychometricFit> fit;
+    std::optional<CriterionThreshold> over_people;
 };
 
 const char* name_of(Sigmoid sigmoid) {
@@ -34,7 +39,8 @@ const char* name_of(Sigmoid sigmoid) {
 
 }  // namespace
 
-PsychometricResults psychometric_results(const Tally& tally, double criterion, std::uint64_t seed) {
+PsychometricResults psychometric_results(const Tally& tally, double criterion, std::uint64_t seed,
+                                         Dispersion dispersion) {
     PsychometricResults results;
     results.criterion = criterion;
     const std::size_t people = tally.participants().size();
@@ -43,9 +49,12 @@ PsychometricResults psychometric_results(const Tally& tally, double criterion, s
 
     // Gather the counts of every fit, everybody's first.
     std::vector<Job> jobs;
-    for (double alpha : tally.alphas()) {
+    std::vector<std::vector<std::vector<PsychometricLevel>>> by_alpha(tally.alphas().size());
+    for (std::size_t a = 0; a < by_alpha.size(); ++a) {
+        const double alpha = tally.alphas()[a];
         std::vector<PsychometricLevel> pooled;
-        std::vector<std::vector<PsychometricLevel>> individual(results.participants.size());
+        std::vector<std::vector<PsychometricLevel>>& individual = by_alpha[a];
+        individual.resize(people);
         for (double sigma : tally.sigmas()) {
             if (!tally.has({sigma, alpha})) continue;
             PsychometricLevel all{sigma * sigma, 0, 0};
@@ -53,30 +62,33 @@ PsychometricResults psychometric_results(const Tally& tally, double criterion, s
             for (std::size_t i = 0; i < counts.size(); ++i) {
                 all.n += counts[i].n;
                 all.different += counts[i].n - counts[i].successes;
-                if (i < individual.size() && counts[i].n > 0)
+                if (counts[i].n > 0)
                     individual[i].push_back({sigma * sigma, counts[i].n, counts[i].n - counts[i].successes});
             }
             pooled.push_back(all);
         }
         for (Sigmoid sigmoid : {Sigmoid::logistic, Sigmoid::normal, Sigmoid::weibull})
-            jobs.push_back({std::nullopt, alpha, sigmoid, pooled, {}});
-        for (std::size_t i = 0; i < individual.size(); ++i)
-            jobs.push_back({i, alpha, Sigmoid::logistic, individual[i], {}});
+            jobs.push_back({std::nullopt, alpha, sigmoid, pooled, &individual, {}, {}});
+        for (std::size_t i = 0; i < results.participants.size(); ++i)
+            jobs.push_back({i, alpha, Sigmoid::logistic, individual[i], nullptr, {}, {}});
     }
     parallel_for(jobs.size(), [&](std::size_t i) {
         PsychometricFitOptions options;
         options.model.sigmoid = jobs[i].sigmoid;
+        options.model.dispersion = dispersion;
         options.criterion_share = 1.0 - criterion;
         options.seed = seed + i;
         options.draws = jobs[i].participant ? 2000 : 10'000;
         jobs[i].fit = fit_psychometric(jobs[i].levels, options);
+        if (jobs[i].fit && jobs[i].people)
+            jobs[i].over_people = threshold_over_people(*jobs[i].people, *jobs[i].fit, options, kResamples);
     });
     for (Job& job : jobs) {
         if (!job.fit) continue;
         auto& list = job.participant                    ? results.individual
                      : job.sigmoid == Sigmoid::logistic ? results.pooled
                                                         : results.other_sigmoids;
-        list.push_back({job.participant, job.alpha, std::move(*job.fit)});
+        list.push_back({job.participant, job.alpha, std::move(*job.fit), job.over_people});
     }
     return results;
 }
@@ -86,7 +98,7 @@ std::string psychometric_csv(const PsychometricResults& results) {
         "participant,alpha,sigmoid,trials,threshold,threshold_low,threshold_high,width,width_low,width_high,"
         "lambda,gamma,eta,"
         "sigma2_at_criterion,sigma2_at_criterion_low,sigma2_at_criterion_high,sigma_at_criterion,negative_"
-        "log_posterior,warnings\n";
+        "log_posterior,sigma2_over_people_low,sigma2_over_people_high,warnings\n";
     const auto add = [&](const StudyFit& study_fit) {
         const PsychometricFit& fit = study_fit.fit;
         std::int64_t trials = 0;
@@ -101,7 +113,10 @@ std::string psychometric_csv(const PsychometricResults& results) {
         const CriterionThreshold& at = fit.at_criterion;
         csv += "," + csv_text(at.value, 6) + "," + csv_text(at.low, 6) + "," + csv_text(at.high, 6) + "," +
                (at.value && *at.value >= 0.0 ? general_text(std::sqrt(*at.value), 6) : std::string()) + "," +
-               general_text(fit.negative_log_posterior, 9) + "," + csv_field(warnings) + "\n";
+               general_text(fit.negative_log_posterior, 9) + "," +
+               csv_text(study_fit.over_people ? study_fit.over_people->low : std::nullopt, 6) + "," +
+               csv_text(study_fit.over_people ? study_fit.over_people->high : std::nullopt, 6) + "," +
+               csv_field(warnings) + "\n";
     };
     for (const auto* list : {&results.pooled, &results.other_sigmoids, &results.individual})
         for (const StudyFit& fit : *list) add(fit);

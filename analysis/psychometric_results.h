@@ -16,6 +16,11 @@ struct StudyFit {
         participant;  // index in PsychometricResults::participants; absent: all together
     double alpha = 0.0;
     PsychometricFit fit;  // x is sigma^2
+    // Of a fit to several participants: the interval over people, which is the one to report of a group.
+    // Absent for one participant, whose credible interval it then is.
+    std::optional<CriterionThreshold> over_people;
+
+    const CriterionThreshold& reported() const { return over_people ? *over_people : fit.at_criterion; }
 };
 
 struct PsychometricResults {
@@ -28,11 +33,14 @@ struct PsychometricResults {
 };
 
 // The logistic function throughout; alphas with a single sigma are fitted too and say so in their warnings.
-// Runs on all cores.
-PsychometricResults psychometric_results(const Tally& tally, double criterion, std::uint64_t seed);
+// Credible intervals take a participant's answers as independent given the function (binomial) unless
+// `dispersion` says otherwise. Runs on all cores.
+PsychometricResults psychometric_results(const Tally& tally, double criterion, std::uint64_t seed,
+                                         Dispersion dispersion = Dispersion::binomial);
 
 // CSV: participant ("all" for pooled), alpha, sigmoid, threshold and width with credible ends, lambda, gamma,
-// eta, sigma2 and sigma at the criterion with credible ends, trials, negative_log_posterior, warnings.
+// eta, sigma2 and sigma at the criterion with credible ends and ends over people, trials,
+// negative_log_posterior, warnings.
 std::string psychometric_csv(const PsychometricResults& results);
 
 }  // namespace parafovea

@@ -72,19 +72,34 @@ std::string timing_figure_script(const FrameTimes& frames, const StudyDescriptio
     }
     body += "EOD\n" + heading("Time from one frame to the next", study);
     const double period = frames.refresh_hz > 0.0 ? 1000.0 / frames.refresh_hz : 0.0;
-    const double end = std::max(last, 2.5 * period) * 1.05;
+    // A single long halt must not squeeze all others into one line; what lies beyond is counted in words.
+    const double shown = period > 0.0 ? std::min(last, 6.5 * period) : last;
+    const double end = std::max(shown, 2.5 * period) * 1.05;
+    std::int64_t all = 0, beyond = 0, missed = 0;
+    for (std::size_t i = 0; i < frames.counts.size(); ++i) {
+        const double middle = (static_cast<double>(i) + 0.5) * frames.bin_ms;
+        all += frames.counts[i];
+        if (middle > end) beyond += frames.counts[i];
+        if (period > 0.0 && middle > 1.5 * period) missed += frames.counts[i];
+    }
     body +=
         "set border 3 linewidth 0.8 linecolor rgb '#333333'\nset tics nomirror out scale 0.5\nset xrange "
         "[0:" +
         fixed_text(end > 0.0 ? end : 1.0, 3) + "]\nset logscale y\nset yrange [0.5:*]\nset boxwidth " +
-        fixed_text(frames.bin_ms, 4) + "\nset style fill solid 1.0 noborder\nunset key\nset tmargin 4\n";
+        fixed_text(frames.bin_ms, 4) +
+        "\nset style fill solid 1.0 border linecolor rgb '#0072B2'\nunset key\nset tmargin 4\n";
     body += "set xlabel \"interval (ms)\"\nset ylabel \"frames (logarithmic)\"\n";
     for (int k = 1; period > 0.0 && k * period < end && k <= 6; ++k)
         body += "set arrow from " + fixed_text(k * period, 4) + ",graph 0 to " + fixed_text(k * period, 4) +
                 ",graph 1 nohead dashtype (4,4) linewidth 0.7 linecolor rgb '#777777'\nset label \"" +
                 std::to_string(k) + (k == 1 ? " refresh" : " refreshes") + "\" at " +
                 fixed_text(k * period, 4) + ",graph 1.02 center font ',8' textcolor rgb '#555555'\n";
-    body += "plot $frames using 1:2 with boxes linecolor rgb '#0072B2'\n";
+    std::string note = std::to_string(all) + " frames";
+    if (period > 0.0) note += ", " + std::to_string(missed) + " later than 1.5 refreshes";
+    if (beyond > 0) note += ", " + std::to_string(beyond) + " beyond this axis";
+    body += "set label \"" + note + "\" at graph 0.98,graph 0.92 right font ',9' textcolor rgb '#333333'\n";
+    // A border keeps single bins visible in print.
+    body += "plot $frames using 1:2 with boxes linecolor rgb '#0072B2' linewidth 1.5\n";
     return figure_script(stem, {15.0, 8.0}, body);
 }
 

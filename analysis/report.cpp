@@ -156,30 +156,39 @@ ReportSection psychometric_section(const StudyDescription& study, const StudyRes
         results, "psychometric",
         "Answers “different” against σ² with the fitted logistic function, one panel per α. The dashed line "
         "is the "
-        "criterion; the bar on it is the 95 % credible interval of the threshold. Error bars: Wilson 95 %." +
+        "criterion; the bar on it is the 95 % interval of the threshold, over participants drawn anew (of "
+        "one participant: "
+        "credible). Error bars: Wilson 95 %." +
             data_note(study));
-    Rows rows{{"α", "function", "σ² at " + criterion, "95 % credible", "σ there", "threshold (half way)",
-               "width", "lapse rate", "guess rate", "overdispersion η", "−log posterior"}};
+    Rows rows{{"α", "function", "σ² at " + criterion, "95 % over people", "95 % credible", "σ there",
+               "threshold (half way)", "width", "lapse rate", "guess rate", "overdispersion η",
+               "−log posterior"}};
     for (const auto* list : {&fits.pooled, &fits.other_sigmoids}) {
         for (const StudyFit& fit : *list) {
             const CriterionThreshold& at = fit.fit.at_criterion;
+            const auto ends = [](const CriterionThreshold& threshold) {
+                return (threshold.low ? fixed_text(*threshold.low, 2) : "below") + " to " +
+                       (threshold.high ? fixed_text(*threshold.high, 2) : "above");
+            };
             const Sigmoid sigmoid = fit.fit.model.sigmoid;
             const PsychometricParameters& best = fit.fit.best;
             rows.push_back({short_text(fit.alpha),
                             sigmoid == Sigmoid::logistic ? "logistic"
                             : sigmoid == Sigmoid::normal ? "normal"
                                                          : "Weibull",
-                            number(at.value, 2),
-                            (at.low ? fixed_text(*at.low, 2) : "below") + " to " +
-                                (at.high ? fixed_text(*at.high, 2) : "above"),
+                            number(at.value, 2), fit.over_people ? ends(*fit.over_people) : kDash, ends(at),
                             at.value && *at.value >= 0.0 ? fixed_text(std::sqrt(*at.value), 2) : kDash,
                             fixed_text(best.threshold, 2), fixed_text(best.width, 2),
                             fixed_text(best.lambda, 3), fixed_text(best.gamma, 3), fixed_text(best.eta, 3),
                             fixed_text(fit.fit.negative_log_posterior, 2)});
         }
     }
-    html +=
-        html_table("Fits to all participants together. The width of the Weibull is in units of ln σ².", rows);
+    html += html_table(
+        "Fits to all participants together. Over people: had other participants been drawn; this is the "
+        "interval "
+        "to report of a group. Credible: for answers like these from these very people. The width of the "
+        "Weibull is in units of ln σ².",
+        rows);
     html += html_figure(
         results, "participants",
         "The same for every participant; curves with few trials lean on the priors." + data_note(study));
@@ -220,11 +229,27 @@ ReportSection sensitivity_section(const StudyResults& results) {
                         percent(row.rates.hit), percent(row.rates.false_alarm),
                         fixed_text(row.d_differencing, 2), fixed_text(row.d_independent, 2),
                         fixed_text(row.d_yes_no, 2), fixed_text(row.criterion, 2)});
-    return {"sensitivity", "Sensitivity and bias",
-            html_table("Signal detection with the validation pairs as false alarms (log-linear correction, "
-                       "all participants together). A "
-                       "positive criterion is a leaning to “identical”.",
-                       rows)};
+    std::string html = html_table(
+        "Signal detection with the validation pairs as false alarms (log-linear correction, all participants "
+        "together). A "
+        "positive criterion is a leaning to “identical”.",
+        rows);
+    Rows people{{"participant", "foveated trials", "identical trials", "“different” to foveated %",
+                 "“different” to identical %", "d′ differencing", "z(H) − z(F)", "criterion"}};
+    for (const ParticipantSensitivity& row : results.participant_sensitivity)
+        people.push_back({row.participant, std::to_string(row.different_trials),
+                          std::to_string(row.same_trials), percent(row.rates.hit),
+                          percent(row.rates.false_alarm), fixed_text(row.d_differencing, 2),
+                          fixed_text(row.d_yes_no, 2), fixed_text(row.criterion, 2)});
+    if (people.size() > 1)
+        html += folded(
+            "Every participant",
+            html_table(
+                "The same for every participant over all conditions, each with their own false alarms. "
+                "Comparable between participants who saw the same conditions.",
+                people),
+            people.size() <= 41);
+    return {"sensitivity", "Sensitivity and bias", html};
 }
 
 ReportSection validation_section(const StudyResults& results) {
@@ -316,9 +341,14 @@ ReportSection methods_section(const Tally& tally, const StudyDescription& study,
         "compared with McNemar's exact and "
         "mid-p tests, adjusted after Holm (1979). The probability of “different” was fitted against σ² for "
         "every α with a logistic function "
-        "with lapse rate, guess rate and beta-binomial overdispersion under the priors of Schütt et al. "
-        "(2016); thresholds are "
-        "posterior modes with equal-tailed 95 % credible intervals. The decision takes the highest σ whose "
+        "with lapse rate and guess rate" +
+        std::string(study.overdispersion ? " and beta-binomial overdispersion" : "") +
+        " under the priors of Schütt et al. (2016); thresholds are posterior modes. A participant's "
+        "threshold has an "
+        "equal-tailed 95 % credible interval" +
+        (study.overdispersion ? "" : " for binomial answers") +
+        ", that of all together the same interval widened to the spread of 400 resamples of whole "
+        "participants and by Student's t. The decision takes the highest σ whose "
         "P_I reaches " +
         general_text(100.0 * study.identical_criterion, 4) + " %, with a bootstrap of " +
         std::to_string(results.decision.resamples) +

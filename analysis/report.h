@@ -25,10 +25,11 @@ struct StudyResults {
     PsychometricResults psychometric;
     Decision decision;
     std::vector<SigmaEffects> effects;
-    std::vector<SensitivityRow> sensitivity;       // empty without validation trials
-    std::vector<ValidationRow> validation;         // the same
-    std::vector<ResponseTimeRow> response_times;   // empty when not measured
-    std::vector<ConditionRow> without_exclusions;  // empty without exclusions
+    std::vector<SensitivityRow> sensitivity;                      // empty without validation trials
+    std::vector<ParticipantSensitivity> participant_sensitivity;  // the same
+    std::vector<ValidationRow> validation;                        // the same
+    std::vector<ResponseTimeRow> response_times;                  // empty when not measured
+    std::vector<ConditionRow> without_exclusions;                 // empty without exclusions
     std::vector<ReportWarning> warnings;
     std::vector<std::pair<std::string, std::string>> figures;  // name and <svg> element
 };

@@ -181,15 +181,23 @@ void interval_bias(std::vector<ReportWarning>& found, const Tally& tally,
 void sample_size(std::vector<ReportWarning>& found, const Tally& tally, const StudyDescription& study) {
     const auto people = static_cast<std::int64_t>(tally.participants().size());
     if (study.planned_participants == 0)
+        found.push_back({"Sample size not fixed beforehand",
+                         "The data name no planned number of participants ([design] participants in the "
+                         "protocol). If the study was "
+                         "stopped after looking at results, the p values are too small."});
+    else if (people < study.planned_participants)
         found.push_back(
-            {"Sample size not fixed beforehand",
-             "No planned number of participants is stored with the protocol. If the study was stopped "
-             "after looking at results, the p values are too small."});
-    else if (people != study.planned_participants)
-        found.push_back({"Optional stopping", std::to_string(study.planned_participants) +
-                                                  " participants were planned and " + std::to_string(people) +
-                                                  " are analysed. Unless the reason is independent of the "
-                                                  "results, the p values are not to be trusted."});
+            {"Fewer participants than planned",
+             std::to_string(people) + " of " + std::to_string(study.planned_participants) +
+                 " planned participants are analysed. If the study ended here because of its results, the p "
+                 "values are too small; if it goes on, do not decide on these."});
+    else if (people > study.planned_participants)
+        found.push_back(
+            {"Optional stopping",
+             std::to_string(people) + " participants are analysed and " +
+                 std::to_string(study.planned_participants) +
+                 " were planned. If participants were added after looking at results, the p values are too "
+                 "small."});
 }
 
 void exclusions(std::vector<ReportWarning>& found, const Tally& tally, const StudyDescription& study,

@@ -23,6 +23,7 @@ struct StudyDescription {
     int planned_participants = 0;         // fixed before the data were seen; 0 when it was not
     std::string exclusion_rules;          // the rules in words, as stored before the first session
     std::string exclusion_rules_hash;
+    bool overdispersion = false;      // psychometric fits allow answers to vary more than independent ones do
     std::uint64_t analysis_seed = 1;  // of permutations and bootstraps
 };
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "analysis/csv_text.h"
 #include "analysis/number_text.h"
 
 namespace parafovea {
@@ -37,6 +38,45 @@ std::string sensitivity_csv(const std::vector<SensitivityRow>& rows) {
         "criterion\n";
     for (const SensitivityRow& row : rows) {
         csv += short_text(row.condition.sigma) + "," + short_text(row.condition.alpha);
+        for (double value : {row.rates.hit, row.rates.false_alarm, row.d_yes_no, row.d_independent,
+                             row.d_differencing, row.criterion})
+            csv += "," + general_text(value, 6);
+        csv += "\n";
+    }
+    return csv;
+}
+
+std::vector<ParticipantSensitivity> participant_sensitivity(const Tally& tally) {
+    std::vector<ClusterCount> foveated(tally.participants().size());
+    for (double sigma : tally.sigmas())
+        for (double alpha : tally.alphas()) {
+            const auto counts = tally.by_participant({sigma, alpha});
+            for (std::size_t i = 0; i < counts.size(); ++i) {
+                foveated[i].n += counts[i].n;
+                foveated[i].successes += counts[i].successes;
+            }
+        }
+    const auto validation = tally.validation_by_participant();
+    std::vector<ParticipantSensitivity> rows;
+    for (std::size_t i = 0; i < foveated.size(); ++i) {
+        const auto rates = corrected_rates(foveated[i].n - foveated[i].successes, foveated[i].n,
+                                           validation[i].n - validation[i].successes, validation[i].n);
+        if (!rates) continue;
+        rows.push_back({tally.participants()[i], foveated[i].n, validation[i].n, *rates,
+                        yes_no_d_prime(*rates), independent_observation_d_prime(*rates),
+                        differencing_d_prime(*rates), criterion(*rates)});
+    }
+    return rows;
+}
+
+std::string participant_sensitivity_csv(const std::vector<ParticipantSensitivity>& rows) {
+    std::string csv =
+        "participant,different_trials,same_trials,hit_rate,false_alarm_rate,d_prime_yes_no,d_prime_"
+        "independent,"
+        "d_prime_differencing,criterion\n";
+    for (const ParticipantSensitivity& row : rows) {
+        csv += csv_field(row.participant) + "," + std::to_string(row.different_trials) + "," +
+               std::to_string(row.same_trials);
         for (double value : {row.rates.hit, row.rates.false_alarm, row.d_yes_no, row.d_independent,
                              row.d_differencing, row.criterion})
             csv += "," + general_text(value, 6);

@@ -24,6 +24,19 @@ struct SensitivityRow {
 std::vector<SensitivityRow> sensitivity_rows(const Tally& tally, const std::vector<ConditionRow>& conditions);
 std::string sensitivity_csv(const std::vector<SensitivityRow>& rows);
 
+struct ParticipantSensitivity {
+    std::string participant;
+    std::int64_t different_trials = 0, same_trials = 0;  // foveated pairs of all conditions; validation pairs
+    DetectionRates rates;                                // log-linear corrected
+    double d_yes_no = 0.0, d_independent = 0.0, d_differencing = 0.0, criterion = 0.0;
+};
+
+// One row per participant who has both kinds of trial, in the tally's order.
+std::vector<ParticipantSensitivity> participant_sensitivity(const Tally& tally);
+
+// CSV: participant, different_trials, same_trials, then as sensitivity_csv.
+std::string participant_sensitivity_csv(const std::vector<ParticipantSensitivity>& rows);
+
 struct SigmaEffects {
     double sigma = 0.0;
     std::vector<double> alphas;

@@ -72,7 +72,9 @@ AnalysisFiles write_analysis(const StudyTally& tallies, const StudyDescription& 
     // Start on the figures, which take longest, as soon as their numbers stand.
     StudyResults results;
     results.conditions = condition_rows(tally);
-    results.psychometric = psychometric_results(tally, study.identical_criterion, study.analysis_seed);
+    results.psychometric =
+        psychometric_results(tally, study.identical_criterion, study.analysis_seed,
+                             study.overdispersion ? Dispersion::fitted : Dispersion::binomial);
     const std::string main_figure = study.is_pilot ? "figure9" : "figure10";
     const std::vector<Figure> figures = figures_of(tally, study, recordings, results, main_figure, out);
     std::future<void> drawn = std::async(std::launch::async, [&] {
@@ -85,6 +87,7 @@ AnalysisFiles write_analysis(const StudyTally& tallies, const StudyDescription& 
         decide(tally, study.identical_criterion, study.non_inferiority_margin, 4000, study.analysis_seed);
     results.effects = sigma_effects(tally);
     results.sensitivity = sensitivity_rows(tally, results.conditions);
+    results.participant_sensitivity = participant_sensitivity(tally);
     results.validation = validation_rows(tally);
     results.response_times = response_time_rows(tally, results.conditions);
     if (tally.excluded() > 0) results.without_exclusions = condition_rows(tallies.all_answers());
@@ -112,6 +115,8 @@ AnalysisFiles write_analysis(const StudyTally& tallies, const StudyDescription& 
     write("pairwise.csv", pairwise_csv(results.effects));
     write("psychometric.csv", psychometric_csv(results.psychometric));
     if (!results.sensitivity.empty()) write("sensitivity.csv", sensitivity_csv(results.sensitivity));
+    if (!results.participant_sensitivity.empty())
+        write("sensitivity_participants.csv", participant_sensitivity_csv(results.participant_sensitivity));
     if (!results.validation.empty()) write("validation.csv", validation_csv(results.validation));
     if (!results.response_times.empty())
         write("response_times.csv", response_time_csv(results.response_times));

@@ -40,8 +40,8 @@ class StudyTally {
 // Analyses the responses and writes the files into out, which is made if absent:
 //   figure10.{svg,png,pdf,csv} (figure9 for a pilot), table1.{csv,md}, report.html, pairwise.csv,
 //   psychometric.{csv,svg,png,pdf}, and where the data hold them: participants.{svg,png,pdf} (fits one by
-//   one), sensitivity.csv and validation.csv (validation trials), response_times.csv, exclusions.csv, gaze.*
-//   , timing.* and quality.csv (recordings).
+//   one), sensitivity.csv, sensitivity_participants.csv and validation.csv (validation trials),
+//   response_times.csv, exclusions.csv, gaze.* , timing.* and quality.csv (recordings).
 // Throws std::runtime_error when there is no countable response, out cannot be written or gnuplot cannot be
 // run.
 AnalysisFiles write_analysis(const StudyTally& tally, const StudyDescription& study,

@@ -1,11 +1,12 @@
 // Prints how often 95 % intervals cover the truth and how often tests at 0.05 reject a true null hypothesis,
 // as Markdown tables. Usage: analysis_calibration [studies per row, default 2000]
-// [thresholds: the table of psychometric fits only]
+// [all, or one table: answers, people, thresholds, groups, null]
 #include <array>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <numbers>
+#include <string>
 #include <vector>
 
 #include "analysis/cochran_q.h"
@@ -14,6 +15,7 @@
 #include "analysis/parallel.h"
 #include "analysis/proportion.h"
 #include "analysis/psychometric_fit.h"
+#include "analysis/psychometric_people.h"
 #include "analysis/random_draw.h"
 
 namespace parafovea {
@@ -147,6 +149,64 @@ void intervals_of_thresholds(int studies) {
         }
 }
 
+// Two answers of everybody at every sigma, as in the final study's two sessions, joined and fitted; the truth
+// is where the mean over all people reaches 20 % "different".
+void intervals_of_group_thresholds(int studies) {
+    std::printf(
+        "| participants | SD of thresholds between people | credible, overdispersion fitted | credible, "
+        "binomial | bootstrap "
+        "over participants |\n|---:|---:|---:|---:|---:|\n");
+    for (int people : {18, 36})
+        for (double sd : {0.0, 0.75, 1.5}) {
+            PsychometricFitOptions options;
+            const PsychometricParameters person{3.5, 3.0, 0.02, 0.04, 0.0};
+            const auto mean_over_people = [&](double x) {
+                double sum = 0.0, weights = 0.0;
+                for (int q = 0; q < 400; ++q) {
+                    const double z = -5.0 + 10.0 * (q + 0.5) / 400.0, weight = std::exp(-z * z / 2.0);
+                    PsychometricParameters one = person;
+                    one.threshold += sd * z;
+                    sum += weight * psychometric_value(options.model, one, x);
+                    weights += weight;
+                }
+                return sum / weights;
+            };
+            double low = 0.0, high = 6.0;
+            for (int step = 0; step < 60; ++step)
+                (mean_over_people(0.5 * (low + high)) < 0.2 ? low : high) = 0.5 * (low + high);
+            const auto cover = shares<3>(studies / 4, [&](std::mt19937_64& generator) {
+                std::vector<std::vector<PsychometricLevel>> each;
+                std::vector<PsychometricLevel> all;
+                for (int i = 0; i < people; ++i) {
+                    PsychometricParameters one = person;
+                    one.threshold += sd * draw_normal(generator);
+                    auto& levels = each.emplace_back();
+                    for (int j = 0; j < 7; ++j) {
+                        const double sigma = 1.2 + 0.2 * j;
+                        PsychometricLevel level{sigma * sigma, 2, 0};
+                        const double p = psychometric_value(options.model, one, level.x);
+                        for (int k = 0; k < 2; ++k) level.different += draw_unit(generator) < p ? 1 : 0;
+                        levels.push_back(level);
+                        all.push_back(level);
+                    }
+                }
+                PsychometricFitOptions fitted = options, binomial = options;
+                fitted.draws = binomial.draws = 4000;
+                fitted.model.dispersion = Dispersion::fitted;
+                binomial.model.dispersion = Dispersion::binomial;
+                binomial.seed = generator();
+                const auto inside = [&](const CriterionThreshold& at) {
+                    return at.low.value_or(-1e9) <= low && low <= at.high.value_or(1e9);
+                };
+                const auto group = fit_psychometric(all, binomial);
+                return std::array<bool, 3>{inside(fit_psychometric(all, fitted)->at_criterion),
+                                           inside(group->at_criterion),
+                                           inside(*threshold_over_people(each, *group, binomial, 400))};
+            });
+            std::printf("| %d | %.2f | %.1f | %.1f | %.1f |\n", people, sd, cover[0], cover[1], cover[2]);
+        }
+}
+
 // The null hypothesis: no alpha is better for people in general, though each person may favour one.
 void tests_under_the_null(int studies) {
     std::printf(
@@ -205,20 +265,41 @@ void tests_under_the_null(int studies) {
 
 int main(int argc, char** argv) {
     const int studies = argc > 1 ? std::atoi(argv[1]) : 2000;
-    if (studies < 4) {
-        std::fprintf(stderr, "usage: analysis_calibration [studies per row, at least 4] [thresholds]\n");
+    const std::string table = argc > 2 ? argv[2] : "all";
+    if (studies < 4 || (table != "all" && table != "thresholds" && table != "groups" && table != "answers" &&
+                        table != "people" && table != "null")) {
+        std::fprintf(stderr,
+                     "usage: analysis_calibration [studies per row, at least 4] "
+                     "[all|thresholds|groups|answers|people|null]\n");
         return 2;
     }
-    std::printf("\nCoverage of 95 %% credible intervals of psychometric fits (%d studies per row), in %%\n\n",
-                studies / 4);
-    parafovea::intervals_of_thresholds(studies);
-    if (argc > 2) return 0;
-    std::printf("Coverage of 95 %% intervals, independent answers (%d studies per row), in %%\n\n",
-                studies * 5);
-    parafovea::intervals_of_independent_answers(studies);
-    std::printf("\nCoverage of 95 %% intervals of P_I when people differ (%d studies per row), in %%\n\n",
-                studies);
-    parafovea::intervals_over_people(studies);
-    std::printf("\nRejections of a true null hypothesis at 0.05 (%d studies per row), in %%\n\n", studies);
-    parafovea::tests_under_the_null(studies);
+    const auto wanted = [&](const char* name) { return table == "all" || table == name; };
+    if (wanted("answers")) {
+        std::printf("\nCoverage of 95 %% intervals, independent answers (%d studies per row), in %%\n\n",
+                    studies * 5);
+        parafovea::intervals_of_independent_answers(studies);
+    }
+    if (wanted("people")) {
+        std::printf("\nCoverage of 95 %% intervals of P_I when people differ (%d studies per row), in %%\n\n",
+                    studies);
+        parafovea::intervals_over_people(studies);
+    }
+    if (wanted("thresholds")) {
+        std::printf(
+            "\nCoverage of 95 %% credible intervals of psychometric fits (%d studies per row), in %%\n\n",
+            studies / 4);
+        parafovea::intervals_of_thresholds(studies);
+    }
+    if (wanted("groups")) {
+        std::printf(
+            "\nCoverage of 95 %% intervals of a group's sigma^2 at 80 %% identical (%d studies per row), in "
+            "%%\n\n",
+            studies / 4);
+        parafovea::intervals_of_group_thresholds(studies);
+    }
+    if (wanted("null")) {
+        std::printf("\nRejections of a true null hypothesis at 0.05 (%d studies per row), in %%\n\n",
+                    studies);
+        parafovea::tests_under_the_null(studies);
+    }
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "analysis/random_draw.h"
+#include "analysis/summary_tables.h"
 
 namespace parafovea {
 namespace {
@@ -23,6 +24,33 @@ TEST(SignalDetection, agrees_with_reference_values_to_their_printed_digits) {
         EXPECT_NEAR(yes_no_d_prime({r.hit, r.false_alarm}), r.yes_no, 5.1e-5);
     }
     EXPECT_NEAR(criterion({.7, .1}), .3786, 5e-5);
+}
+
+TEST(SignalDetection, of_each_participant_uses_their_own_false_alarms) {
+    Tally tally;
+    const auto answer = [&](const char* participant, bool validation, bool identical) {
+        Response response;
+        response.participant = participant;
+        response.sigma = 1.8;
+        response.alpha = validation ? 1.0 : 4.0;
+        response.validation = validation;
+        response.identical = identical;
+        tally.add(response);
+    };
+    // (3 + .5) / (4 + 1) = .7 of the foveated and (0 + .5) / (4 + 1) = .1 of the identical pairs are called
+    // different.
+    for (int i = 0; i < 4; ++i) {
+        answer("A", false, i == 0);
+        answer("A", true, true);
+        answer("B", false, false);  // no validation trial: no row
+    }
+    const auto rows = participant_sensitivity(tally);
+    ASSERT_EQ(rows.size(), 1u);
+    EXPECT_EQ(rows[0].participant, "A");
+    EXPECT_EQ(rows[0].different_trials, 4);
+    EXPECT_NEAR(rows[0].d_yes_no, 1.8060, 5.1e-5);
+    EXPECT_NEAR(rows[0].d_differencing, 3.0675, 5.1e-5);
+    EXPECT_NEAR(rows[0].criterion, .3786, 5.1e-5);
 }
 
 TEST(SignalDetection, recovers_the_sensitivity_of_a_simulated_differencing_observer) {

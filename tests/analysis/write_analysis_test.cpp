@@ -170,6 +170,37 @@ TEST(WriteAnalysis, answers_for_one_participant_one_condition_and_all_identical)
     EXPECT_NE(text_of(folder.path() / "all/table1.md").find("n/a"), std::string::npos);
 }
 
+TEST(WriteAnalysis, prints_no_nan_and_no_infinity_whatever_the_answers) {
+    const TemporaryFolder folder;
+    std::vector<Response> responses;
+    Response response;
+    for (int p = 0; p < 3; ++p) {
+        response.participant = "P" + std::to_string(p);
+        for (int alpha = 1; alpha <= 20; ++alpha)
+            for (double sigma : {1.0, 2.0, 3.0}) {  // always identical, always different, mixed; 20 columns
+                response.sigma = sigma;
+                response.alpha = alpha;
+                response.identical = sigma < 2.0 || (sigma > 2.0 && (alpha + p) % 3 == 0);
+                responses.push_back(response);
+            }
+    }
+    response.sigma = 4.0;  // one answer of one participant
+    responses.push_back(response);
+    response.validation = true;  // one validation trial, of one participant
+    responses.push_back(response);
+    const AnalysisFiles files = write_analysis(responses, {}, folder.path());
+    const std::regex bad("(^|[^a-zA-Z])-?(nan|inf|infinity)($|[^a-zA-Z])", std::regex::icase);
+    for (const auto& file : files.written) {
+        if (file.extension() != ".csv" && file.extension() != ".md") continue;
+        EXPECT_FALSE(std::regex_search(text_of(file), bad)) << file;
+    }
+    const std::string html = text_of(files.report);
+    for (const char* word : {">nan", " nan", ">-nan", ">inf<", " inf ", " -inf"})
+        EXPECT_EQ(html.find(word), std::string::npos) << word;
+    EXPECT_EQ(csv_rows(folder.path() / "sensitivity_participants.csv").size(), 2u)
+        << "a head, and the one participant with a validation trial";
+}
+
 TEST(WriteAnalysis, refuses_no_responses_and_an_unwritable_folder_in_one_line) {
     const TemporaryFolder folder;
     EXPECT_NE(message_of([&] { write_analysis({}, {}, folder.path()); }).find("no response to analyse"),
