@@ -67,22 +67,15 @@ std::vector<PlanRow> lay_out(const PowerQuestion& question, double effect) {
     return rows;
 }
 
-struct StudyOutcome {
-    std::vector<std::uint8_t> cochran, permutation, undefined;  // per sigma
-    bool any_holm = false;
-    double wilson_width = 0.0, clustered_width = 0.0;
-    double decided_sigma = 0.0;
-};
-
-StudyOutcome simulate_study(const std::vector<PlanRow>& plan, const PowerQuestion& question, int people,
-                            int sessions, std::uint64_t seed) {
+SimulatedStudy simulate_study(const std::vector<PlanRow>& plan, const PowerQuestion& question, int people,
+                              int sessions, std::uint64_t seed) {
     std::mt19937_64 generator(seed);
     const PowerAssumptions& assumed = question.assumptions;
     const std::size_t n_people = static_cast<std::size_t>(people);
     std::vector<double> person(n_people);
     for (double& shift : person) shift = assumed.participant_sd * draw_normal(generator);
 
-    StudyOutcome outcome;
+    SimulatedStudy outcome;
     std::vector<double> permutation_p;
     double cells = 0.0, clustered_cells = 0.0;
     for (const PlanRow& row : plan) {
@@ -151,18 +144,16 @@ StudyOutcome simulate_study(const std::vector<PlanRow>& plan, const PowerQuestio
     return outcome;
 }
 
-}  // namespace
-
-double monte_carlo_error(double share, int studies) {
-    return studies > 0 ? std::sqrt(std::max(0.0, share * (1.0 - share)) / studies) : 0.0;
-}
-
-std::vector<PowerPoint> simulate_power(const PowerQuestion& question,
-                                       const std::function<void(std::int64_t, std::int64_t)>& progress) {
-    if (question.studies < 1 || question.permutations < 1)
-        throw std::runtime_error("power: at least one study and one permutation are needed");
+// The combinations of a question and how each lays its plan out.
+struct Combinations {
     std::vector<PowerPoint> points;
     std::vector<std::vector<PlanRow>> plans;
+};
+
+Combinations combinations_of(const PowerQuestion& question) {
+    if (question.studies < 1 || question.permutations < 1)
+        throw std::runtime_error("power: at least one study and one permutation are needed");
+    Combinations all;
     for (int sessions : question.sessions)
         for (double effect : question.effects)
             for (int people : question.participants) {
@@ -173,39 +164,71 @@ std::vector<PowerPoint> simulate_power(const PowerQuestion& question,
                 point.sessions = sessions;
                 point.effect = effect;
                 point.studies = question.studies;
-                points.push_back(point);
-                plans.push_back(lay_out(question, effect));
+                all.points.push_back(point);
+                all.plans.push_back(lay_out(question, effect));
             }
+    return all;
+}
 
-    // Every study has a seed of its own, so that the threads cannot change the answer.
+}  // namespace
+
+double monte_carlo_error(double share, int studies) {
+    return studies > 0 ? std::sqrt(std::max(0.0, share * (1.0 - share)) / studies) : 0.0;
+}
+
+std::size_t study_count(const PowerQuestion& question) {
+    return question.sessions.size() * question.effects.size() * question.participants.size() *
+           static_cast<std::size_t>(question.studies);
+}
+
+std::vector<SimulatedStudy> simulate_studies(
+    const PowerQuestion& question, const StudyShard& shard,
+    const std::function<void(std::int64_t, std::int64_t)>& progress) {
+    const Combinations all = combinations_of(question);
+    // Every study has a seed of its own, so that neither threads nor shards can change the answer.
     const std::size_t studies = static_cast<std::size_t>(question.studies);
     std::mt19937_64 seeds(question.seed);
-    std::vector<std::uint64_t> seed(points.size() * studies);
+    std::vector<std::uint64_t> seed(study_count(question));
     for (std::uint64_t& value : seed) value = seeds();
-    std::vector<StudyOutcome> outcomes(seed.size());
+    std::vector<std::size_t> own;
+    for (std::size_t i = static_cast<std::size_t>(shard.index - 1); i < seed.size();
+         i += static_cast<std::size_t>(shard.count))
+        own.push_back(i);
+
+    std::vector<SimulatedStudy> outcomes(own.size());
     std::mutex progress_mutex;
     std::int64_t done = 0;
     constexpr std::size_t kBatch = 16;
-    parallel_for((outcomes.size() + kBatch - 1) / kBatch, [&](std::size_t batch) {
-        const std::size_t end = std::min(outcomes.size(), (batch + 1) * kBatch);
-        for (std::size_t i = batch * kBatch; i < end; ++i) {
-            const PowerPoint& point = points[i / studies];
-            outcomes[i] =
-                simulate_study(plans[i / studies], question, point.participants, point.sessions, seed[i]);
+    parallel_for((own.size() + kBatch - 1) / kBatch, [&](std::size_t batch) {
+        const std::size_t end = std::min(own.size(), (batch + 1) * kBatch);
+        for (std::size_t k = batch * kBatch; k < end; ++k) {
+            const std::size_t i = own[k];
+            const PowerPoint& point = all.points[i / studies];
+            outcomes[k] =
+                simulate_study(all.plans[i / studies], question, point.participants, point.sessions, seed[i]);
         }
         if (!progress) return;
         const std::lock_guard lock(progress_mutex);
         done += static_cast<std::int64_t>(end - batch * kBatch);
-        progress(done, static_cast<std::int64_t>(outcomes.size()));
+        progress(done, static_cast<std::int64_t>(own.size()));
     });
+    return outcomes;
+}
 
+std::vector<PowerPoint> power_of_studies(const PowerQuestion& question,
+                                         const std::vector<SimulatedStudy>& outcomes) {
+    Combinations all = combinations_of(question);
+    const std::size_t studies = static_cast<std::size_t>(question.studies);
+    if (outcomes.size() != all.points.size() * studies)
+        throw std::runtime_error("power: " + std::to_string(outcomes.size()) + " studies; expected " +
+                                 std::to_string(all.points.size() * studies));
     // Add up each point's studies in their order.
-    for (std::size_t p = 0; p < points.size(); ++p) {
-        PowerPoint& point = points[p];
+    for (std::size_t p = 0; p < all.points.size(); ++p) {
+        PowerPoint& point = all.points[p];
         const double share = 1.0 / question.studies;
-        for (const PlanRow& row : plans[p]) point.sigmas.push_back({row.sigma, 0.0, 0.0, 0.0});
+        for (const PlanRow& row : all.plans[p]) point.sigmas.push_back({row.sigma, 0.0, 0.0, 0.0});
         std::map<double, int> decided{{0.0, 0}};
-        for (const PlanRow& row : plans[p]) decided[row.sigma] = 0;
+        for (const PlanRow& row : all.plans[p]) decided[row.sigma] = 0;
         int survived = 0;
         std::vector<std::array<int, 3>> counts(point.sigmas.size());
         for (std::size_t i = p * studies; i < (p + 1) * studies; ++i) {
@@ -227,7 +250,12 @@ std::vector<PowerPoint> simulate_power(const PowerQuestion& question,
         point.any_holm = share * survived;
         for (const auto& [sigma, count] : decided) point.decided_sigma.push_back({sigma, share * count});
     }
-    return points;
+    return all.points;
+}
+
+std::vector<PowerPoint> simulate_power(const PowerQuestion& question,
+                                       const std::function<void(std::int64_t, std::int64_t)>& progress) {
+    return power_of_studies(question, simulate_studies(question, {}, progress));
 }
 
 }  // namespace parafovea

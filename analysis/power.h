@@ -82,9 +82,40 @@ struct PowerPoint {
 // Standard error of a simulated share: at most 1 / (2 sqrt(studies)).
 double monte_carlo_error(double share, int studies);
 
-// Every combination of participants, sessions and effects. Runs on all cores, the same answer on any number
-// of them. progress, when given, is called with studies done and all, from any thread but one at a time.
-// Throws std::runtime_error when the plan is empty or an alpha of the plan has no assumed function.
+// What one simulated study found; a value for each sigma of the plan, in rising order.
+struct SimulatedStudy {
+    std::vector<std::uint8_t> cochran, permutation, undefined;  // see SigmaPower
+    bool any_holm = false;
+    double wilson_width = 0.0, clustered_width = 0.0;
+    double decided_sigma = 0.0;
+
+    bool operator==(const SimulatedStudy&) const = default;
+};
+
+// Which of a question's studies to simulate: the index-th, counted from 1, of every `count`.
+struct StudyShard {
+    int index = 1;
+    int count = 1;
+
+    bool operator==(const StudyShard&) const = default;
+};
+
+// How many studies there are: those of every combination of participants, sessions and effects.
+std::size_t study_count(const PowerQuestion& question);
+
+// Simulates a shard's studies in their order. Runs on all cores; what a study finds does not depend on how
+// many, nor on the shard. progress, when given, is called with studies done and all, from any thread but one
+// at a time. Throws std::runtime_error when the plan is empty or an alpha of the plan has no assumed
+// function.
+std::vector<SimulatedStudy> simulate_studies(
+    const PowerQuestion& question, const StudyShard& shard = {},
+    const std::function<void(std::int64_t, std::int64_t)>& progress = {});
+
+// Adds up all studies of a question, in their order.
+std::vector<PowerPoint> power_of_studies(const PowerQuestion& question,
+                                         const std::vector<SimulatedStudy>& studies);
+
+// The two above in one.
 std::vector<PowerPoint> simulate_power(const PowerQuestion& question,
                                        const std::function<void(std::int64_t, std::int64_t)>& progress = {});
 

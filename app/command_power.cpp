@@ -4,8 +4,10 @@
 #include <stdexcept>
 
 #include "analysis/power.h"
+#include "analysis/power_shards.h"
 #include "app/commands.h"
 #include "app/progress.h"
+#include "app/tradeoff_plan.h"
 #include "study/protocol.h"
 
 namespace parafovea {
@@ -48,12 +50,17 @@ PowerAssumptions default_assumptions(const std::vector<PlanCell>& plan) {
 PowerCommand::PowerCommand(CLI::App& program) {
     CLI::App* command =
         program.add_subcommand("power", "Simulate how often a study of this design finds an effect");
-    command->footer("Example: parafovea power protocols/final.toml --participants 12,18,24 --out power");
-    command->add_option("protocol", protocol_, "Protocol file (TOML)")->required();
-    command->add_option("--participants", participants_, "Numbers of participants")
-        ->required()
-        ->delimiter(',')
-        ->check(CLI::PositiveNumber);
+    command->footer(
+        "Example: parafovea power protocols/final.toml --participants 12,18,24 --out power\n"
+        "On several machines: --shard 1/8 to --shard 8/8, each with its own --out; then --merge OUT1 OUT2 "
+        "... "
+        "--out ALL");
+    CLI::Option* merge = command->add_option("--merge", merge_, "Folders of all shards: join them");
+    CLI::Option* protocol = command->add_option("protocol", protocol_, "Protocol file (TOML)");
+    CLI::Option* participants =
+        command->add_option("--participants", participants_, "Numbers of participants")
+            ->delimiter(',')
+            ->check(CLI::PositiveNumber);
     command->add_option("--assume", assume_,
                         "psychometric.csv of an earlier analysis; a stated default otherwise");
     command->add_option("--effects", effects_, "Multiples of the assumed effect of alpha; 0 is none")
@@ -63,9 +70,27 @@ PowerCommand::PowerCommand(CLI::App& program) {
         ->capture_default_str()
         ->check(CLI::PositiveNumber);
     command->add_option("--seed", seed_, "Seed of the simulation")->capture_default_str();
+    CLI::Option* shard = command->add_option("--shard", shard_, "I/N: simulate the I-th of N parts");
+    merge->excludes(protocol)->excludes(participants)->excludes(shard);
     command->add_option("--out", out_, "Folder for the results")->required();
     command->add_flag("--quiet", quiet_, "No progress");
-    command->callback([this] { run(); });
+    command->callback([this, protocol, participants] {
+        if (!merge_.empty()) return merge_shards();
+        if (protocol->empty()) throw CLI::RequiredError("protocol");
+        if (participants->empty()) throw CLI::RequiredError("--participants");
+        run();
+    });
+}
+
+void PowerCommand::merge_shards() const {
+    const MergedPower merged = merge_power_shards({merge_.begin(), merge_.end()});
+    report(power_of_studies(merged.question, merged.studies), merged.question);
+}
+
+void PowerCommand::report(const std::vector<PowerPoint>& points, const PowerQuestion& question) const {
+    std::printf("%s\n", power_markdown(points, question).c_str());
+    for (const std::filesystem::path& file : write_power(points, question, out_))
+        std::printf("%s\n", file.c_str());
 }
 
 void PowerCommand::run() const {
@@ -81,17 +106,22 @@ void PowerCommand::run() const {
     question.studies = studies_;
     question.seed = seed_;
 
-    std::vector<PowerPoint> points;
+    const Shard shard = shard_.empty() ? Shard{} : parse_shard(shard_);
+    std::vector<SimulatedStudy> studies;
     {
-        const auto all = static_cast<int>(participants_.size() * effects_.size()) * studies_;
+        const auto all = static_cast<int>(study_count(question)) / shard.count;
         Progress progress("study", all, quiet_);
-        points = simulate_power(question, [&](std::int64_t done, std::int64_t) {
-            progress.update(static_cast<int>(done), std::to_string(done) + " of " + std::to_string(all));
-        });
+        studies =
+            simulate_studies(question, {shard.index, shard.count}, [&](std::int64_t done, std::int64_t of) {
+                progress.update(static_cast<int>(done), std::to_string(done) + " of " + std::to_string(of));
+            });
     }
-    std::printf("%s\n", power_markdown(points, question).c_str());
-    for (const std::filesystem::path& file : write_power(points, question, out_))
-        std::printf("%s\n", file.c_str());
+    if (shard.count > 1) {
+        write_power_shard(question, {shard.index, shard.count}, studies, out_);
+        std::printf("%s\n", (std::filesystem::path(out_) / kPowerShardName).c_str());
+        return;
+    }
+    report(power_of_studies(question, studies), question);
 }
 
 }  // namespace parafovea

@@ -145,14 +145,20 @@ class ExportCommand {
     std::string format_, out_;
 };
 
+struct PowerPoint;
+struct PowerQuestion;
+
 class PowerCommand {
   public:
     explicit PowerCommand(CLI::App& program);
 
   private:
     void run() const;
+    void merge_shards() const;
+    void report(const std::vector<PowerPoint>& points, const PowerQuestion& question) const;
 
-    std::string protocol_, assume_, out_;
+    std::string protocol_, assume_, shard_, out_;
+    std::vector<std::string> merge_;
     std::vector<int> participants_;
     std::vector<double> effects_ = {0, 1};
     int studies_ = 1000;
@@ -183,6 +189,30 @@ class BenchCommand {
     std::string out_;
     int rounds_ = 5;
     bool moving_gaze_ = false;
+    bool quiet_ = false;
+};
+
+class TradeoffCommand {
+  public:
+    explicit TradeoffCommand(CLI::App& program);
+
+  private:
+    void run() const;
+    void merge() const;
+    void predict() const;
+    std::string command_line() const;
+
+    std::vector<std::string> scenes_ = {"atrium"};
+    std::vector<std::string> methods_;
+    std::vector<std::string> sizes_ = {"1280x720"};
+    std::vector<std::string> gazes_ = {"centre", "quarter", "corner", "path"};
+    std::vector<std::string> motions_ = {"still", "path"};
+    std::vector<std::string> merge_;
+    std::string protocol_, gaze_recording_, shard_, predict_, out_;
+    int participants_ = 18;
+    double fov_deg_ = 100, peak_cd_m2_ = 100, refresh_hz_ = 70, gaze_age_ms_ = 0;
+    int rounds_ = 5, frames_ = 8, taa_ = 0, reference_samples_ = 16;
+    std::uint64_t seed_ = 1;
     bool quiet_ = false;
 };
 

@@ -22,6 +22,7 @@ int main(int argc, char** argv) {
     const parafovea::FoveateCommand foveate(program);
     const parafovea::DevicesCommand devices(program);
     const parafovea::BenchCommand bench(program);
+    const parafovea::TradeoffCommand tradeoff(program);
     const parafovea::ScenesCommand scenes(program);
     const parafovea::WithdrawCommand withdraw(program);
 

@@ -80,6 +80,10 @@ SameDifferentAnswer SimulatedParticipant::answer(const SeenPicture& first, const
 
 double expected_share_identical(const PictureOnDisplay& a, const PictureOnDisplay& b, PointPx gaze,
                                 PicturePairJudge& judge) {
+    return expected_share_identical([&](double sensitivity) { return judge.jod(a, b, gaze, sensitivity); });
+}
+
+double expected_share_identical(const std::function<double(double)>& jod_at) {
     // Gauss-Hermite quadrature with seven nodes: exact for polynomials to degree 13 of a standard normal.
     constexpr std::array<double, 7> kNode = {-3.750439717725742, -2.366759410734541, -1.154405394739968, 0,
                                              1.154405394739968,  2.366759410734541,  3.750439717725742};
@@ -88,7 +92,7 @@ double expected_share_identical(const PictureOnDisplay& a, const PictureOnDispla
                                                0.000548268855972};
     double share = 0;
     for (std::size_t s = 0; s < kNode.size(); ++s) {
-        const double jod = judge.jod(a, b, gaze, std::pow(10, kLog10SensitivitySd * kNode[s]));
+        const double jod = jod_at(std::pow(10, kLog10SensitivitySd * kNode[s]));
         for (std::size_t c = 0; c < kNode.size(); ++c) {
             ObserverTraits traits;
             traits.criterion += kCriterionSd * kNode[c];

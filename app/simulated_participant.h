@@ -33,6 +33,7 @@
 //       criterion. Nothing else depends on response times.
 #pragma once
 
+#include <functional>
 #include <optional>
 
 #include "app/picture_pair_judge.h"
@@ -92,5 +93,9 @@ class SimulatedParticipant {
 // probability_of_different over people, by quadrature (absolute error below 0.002).
 double expected_share_identical(const PictureOnDisplay& a, const PictureOnDisplay& b, PointPx gaze,
                                 PicturePairJudge& judge);
+
+// The same for whatever can be judged: `jod_at` is told a contrast sensitivity relative to the average
+// person's.
+double expected_share_identical(const std::function<double(double)>& jod_at);
 
 }  // namespace parafovea
