@@ -12,6 +12,10 @@
 
 namespace parafovea {
 
+class FrameRenderer;
+struct RenderMethod;
+struct Scene;
+
 class RunCommand {
   public:
     explicit RunCommand(CLI::App& program);
@@ -94,9 +98,8 @@ void analyze_and_print(const std::vector<std::string>& inputs, const std::string
 
 // The options that say how a picture is foveated, common to several commands.
 struct FoveationOptions {
-    double sigma = 1.8;
-    double alpha = 4;
-    std::string kernel = "power";
+    std::optional<double> sigma, alpha;  // what is absent is as the method has it
+    std::optional<std::string> kernel;
     std::vector<double> betas;
     std::string gaze;  // "X,Y" in pixels; empty: the centre
     bool as_printed = false;
@@ -104,6 +107,8 @@ struct FoveationOptions {
     void add_to(CLI::App& command);
     // The kernel log-polar map that the options describe.
     KernelSetting kernel_setting() const;
+    // Puts what was given into a method's parameters.
+    void add_to(RenderMethod& method) const;
     // The gaze on a picture of this size.
     PointPx gaze_on(SizePx size) const;
 };
@@ -115,11 +120,20 @@ class RenderCommand {
   private:
     void run() const;
 
-    std::string scene_, method_ = "kfr", size_ = "1280x720", out_, stats_;
+    RenderMethod wanted_method() const;
+    void render_frames(FrameRenderer& renderer, const Scene& scene) const;
+    void write_sheet(FrameRenderer& renderer, const Scene& scene) const;
+
+    std::string scene_, method_ = "kfr", size_ = "1280x720", out_, stats_, eye_fov_;
     FoveationOptions foveation_;
+    std::vector<std::string> settings_;
+    std::optional<double> path_s_, path_seconds_, contrast_;
+    int taa_ = 0, views_ = 1, frames_ = 0;
+    double ipd_mm_ = 63, gaze_distance_m_ = 2;
     bool no_culling_ = false;
     bool no_filters_ = false;
     bool post_filter_ = false;
+    bool sheet_ = false;
 };
 
 class FoveateCommand {

@@ -8,27 +8,12 @@
 #include <glm/gtc/quaternion.hpp>
 #include <stdexcept>
 
+#include "renderer/eye_dominance.h"
 #include "renderer/scene_catalog.h"
 
 namespace parafovea {
 
 namespace {
-
-// The frustum of an eye's picture in a scene, whose camera stands for the middle of the head.
-CameraView camera_of(const XrView& eye, const SceneCamera& camera) {
-    const XrQuaternionf& q = eye.pose.orientation;
-    const XrVector3f& p = eye.pose.position;
-    glm::mat4 head_from_eye = glm::mat4_cast(glm::quat(q.w, q.x, q.y, q.z));
-    head_from_eye[3] = glm::vec4(p.x, p.y, p.z, 1);
-    CameraView view;
-    view.world_from_eye = camera.world_from_camera * head_from_eye;
-    view.tan_left = -std::tan(eye.fov.angleLeft);
-    view.tan_right = std::tan(eye.fov.angleRight);
-    view.tan_up = std::tan(eye.fov.angleUp);
-    view.tan_down = -std::tan(eye.fov.angleDown);
-    view.near_m = camera.near_m;
-    return view;
-}
 
 // The numbers of a view, in the order in which they are written.
 template <typename View, typename Function>
@@ -56,6 +41,27 @@ Number read(std::string_view& text) {
 }
 
 }  // namespace
+
+CameraView view_of_eye(const XrView& eye, const SceneCamera& camera) {
+    const XrQuaternionf& q = eye.pose.orientation;
+    const XrVector3f& p = eye.pose.position;
+    glm::mat4 head_from_eye = glm::mat4_cast(glm::quat(q.w, q.x, q.y, q.z));
+    head_from_eye[3] = glm::vec4(p.x, p.y, p.z, 1);
+    CameraView view;
+    view.world_from_eye = camera.world_from_camera * head_from_eye;
+    view.tan_left = -std::tan(eye.fov.angleLeft);
+    view.tan_right = std::tan(eye.fov.angleRight);
+    view.tan_up = std::tan(eye.fov.angleUp);
+    view.tan_down = -std::tan(eye.fov.angleDown);
+    view.near_m = camera.near_m;
+    return view;
+}
+
+RenderMethod method_of_eye(const Eyes& eyes, std::size_t eye, const RenderMethod& method) {
+    if (eyes.views.size() < 2) return method_for_dominant_eye(method);
+    // OpenXR counts the left eye first, in the views of a stereo headset and in each pair of quad views.
+    return method_for_eye(method, eye % 2 == 0 ? Eye::left : Eye::right);
+}
 
 PointPx Eyes::seen_at(std::size_t eye, PointPx on_view) const {
     const Vector3 towards = unit_vector(view().direction_from_point(on_view));
@@ -124,10 +130,10 @@ EyePictures::LoadedScene& EyePictures::scene_called(const std::string& name) {
 EyePictures::Drawn EyePictures::draw(const Eyes& eyes, std::size_t eye, const Picture& picture,
                                      bool read_pixels) {
     LoadedScene& scene = scene_called(picture.scene);
-    RenderedFrame frame =
-        scene.renderer.render(eyes.sizes[eye], camera_of(eyes.views[eye], scene.camera),
-                              {picture.method.method, picture.method.numbers, picture.method.words},
-                              eyes.seen_at(eye, picture.fovea), read_pixels);
+    RenderedFrame frame = scene.renderer.render(
+        eyes.sizes[eye], view_of_eye(eyes.views[eye], scene.camera),
+        method_of_eye(eyes, eye, {picture.method.method, picture.method.numbers, picture.method.words}),
+        eyes.seen_at(eye, picture.fovea), read_pixels);
     Drawn drawn;
     drawn.image = &scene.renderer.target();
     drawn.use = read_pixels ? kUseTransferSource : kUseColorTarget;

@@ -31,6 +31,12 @@ struct Eyes {
     PointPx seen_at(std::size_t eye, PointPx on_view) const;
 };
 
+// The frustum of an eye's picture in a scene, whose camera stands for the middle of the head.
+CameraView view_of_eye(const XrView& eye, const SceneCamera& camera);
+
+// The method as one of the eyes gets it: see renderer/eye_dominance.h.
+RenderMethod method_of_eye(const Eyes& eyes, std::size_t eye, const RenderMethod& method);
+
 // One line that reads back bit for bit. Throws std::runtime_error if it is not such a line.
 std::string to_text(const Eyes& eyes);
 Eyes parse_eyes(std::string_view text);
