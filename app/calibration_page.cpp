@@ -2,6 +2,7 @@
 #include "app/calibration_page.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <vector>
 
@@ -45,51 +46,66 @@ CalibrationPoint point_from(const TargetQuality& target) {
     return point;
 }
 
-}  // namespace
-
-std::optional<CalibrationRecord> measure_calibration(Stage& stage, GazeSource& gaze, Clock& clock,
-                                                     std::stop_token stop,
-                                                     const CalibrationPageSettings& settings) {
+// Shows the targets one after the other, collects the gaze and measures it. None where it was stopped.
+std::optional<CalibrationRecord> measure_at(const std::vector<DirectionDeg>& targets, Stage& stage,
+                                            GazeSource& gaze, Clock& clock, const CalibrationRules& rules,
+                                            const std::stop_token& stop) {
     CalibrationRecord record;
     record.method = "validation only";
     record.started = clock.now();
-
-    // Targets stay a little inside the picture.
-    const ViewGeometry view = stage.view();
-    const DirectionDeg corner = view.direction_from_point({0.9 * view.size.width, 0.1 * view.size.height});
-    const double extent_azimuth_deg = std::min(settings.extent_deg, corner.azimuth_deg);
-    const double extent_elevation_deg = std::min(settings.extent_deg, corner.elevation_deg);
-
-    std::vector<GazeSample> samples;
-    gaze.drain(samples);
-    samples.clear();
+    gaze.drain(record.gaze);
+    record.gaze.clear();
     std::vector<ShownTarget> shown;
     Picture picture;
     picture.kind = PictureKind::target;
-    for (const DirectionDeg target :
-         calibration_targets(settings.targets, extent_azimuth_deg, extent_elevation_deg)) {
-        picture.fovea = view.point_from_direction(target);
+    const Duration each = Duration::from_seconds(rules.each_s);
+    for (const DirectionDeg target : targets) {
+        picture.fovea = stage.view().point_from_direction(target);
         ShownTarget now{target, {}, {}};
         now.shown = stage.show(picture).display_time;
-        for (now.hidden = now.shown; now.hidden - now.shown < settings.each;) {
+        for (now.hidden = now.shown; now.hidden - now.shown < each;) {
             if (stop.stop_requested()) return std::nullopt;
             now.hidden = stage.show(picture).display_time;
-            gaze.drain(samples);
+            gaze.drain(record.gaze);
         }
         shown.push_back(now);
     }
 
     ValidationSettings validation;
-    validation.rate_hz = rate_of(samples);
-    const ValidationResult result = validate_gaze(samples, shown, validation);
+    validation.rate_hz = rate_of(record.gaze);
+    const ValidationResult result = validate_gaze(record.gaze, shown, validation);
     for (const TargetQuality& target : result.targets) record.points.push_back(point_from(target));
     record.mean_accuracy_deg = if_number(result.mean_accuracy_deg);
     record.worst_accuracy_deg = if_number(result.worst_accuracy_deg);
     record.data_loss_share = result.loss_percent / 100;
-    record.accepted = result.targets_without_data == 0 &&
-                      result.mean_accuracy_deg <= settings.greatest_mean_accuracy_deg &&
-                      result.loss_percent <= settings.greatest_loss_percent;
+    record.accepted =
+        result.targets_without_data == 0 && result.loss_percent <= 100 * rules.greatest_loss_share;
     record.ended = clock.now();
+    return record;
+}
+
+}  // namespace
+
+std::optional<CalibrationRecord> measure_calibration(Stage& stage, GazeSource& gaze, Clock& clock,
+                                                     const CalibrationRules& rules, std::stop_token stop) {
+    // Targets stay a little inside the picture.
+    const ViewGeometry view = stage.view();
+    const DirectionDeg corner = view.direction_from_point({0.9 * view.size.width, 0.1 * view.size.height});
+    const std::vector<DirectionDeg> targets =
+        calibration_targets(rules.targets, std::min(rules.extent_deg, corner.azimuth_deg),
+                            std::min(rules.extent_deg, corner.elevation_deg));
+    std::optional<CalibrationRecord> record = measure_at(targets, stage, gaze, clock, rules, stop);
+    if (record) record->accepted &= record->mean_accuracy_deg <= rules.greatest_mean_accuracy_deg;
+    return record;
+}
+
+std::optional<CalibrationRecord> measure_drift(Stage& stage, GazeSource& gaze, Clock& clock,
+                                               const CalibrationRules& rules, std::stop_token stop) {
+    assert(rules.drift_check_deg);
+    std::optional<CalibrationRecord> record = measure_at({{0, 0}}, stage, gaze, clock, rules, stop);
+    if (!record) return std::nullopt;
+    record->kind = "drift check";
+    record->accepted &= record->mean_accuracy_deg <= rules.drift_check_deg;
     return record;
 }
 

@@ -21,10 +21,10 @@ RunCommand::RunCommand(CLI::App& program) {
     command->add_option("--display", display_, "Where the pictures are shown")
         ->check(CLI::IsMember({"openxr", "window", "headless"}))
         ->capture_default_str();
-    command->add_option(
-        "--gaze", gaze_,
-        "Eye tracker: openxr, hid, fove, gazepoint, mouse, simulated, replay:FILE; openxr in a headset, "
-        "mouse in a window, else simulated, if absent");
+    command->add_option("--gaze", gaze_,
+                        "Eye tracker: openxr, hid, fove, gazepoint[:HOST:PORT], mouse, simulated, "
+                        "replay:FILE; openxr in a headset, "
+                        "mouse in a window, else simulated, if absent");
     command->add_option("--controller", controller_,
                         "Answers: auto, evdev, hidapi, libusb, gamepad, keyboard, simulated; auto in a "
                         "headset or window, else simulated, if absent");

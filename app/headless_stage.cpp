@@ -1,6 +1,8 @@
 // Keeps the refresh rate of a display that is not there.
 #include "app/headless_stage.h"
 
+#include "app/photodiode_patch.h"
+
 namespace parafovea {
 
 HeadlessStage::HeadlessStage(const ViewGeometry& view, double refresh_hz, Clock& clock,
@@ -21,8 +23,10 @@ ShownFrame HeadlessStage::show(const Picture& picture) {
     clock_.wait_until(shown.display_time);
 
     if (audience_.looks_at(picture, shown.display_time) && picture.kind == PictureKind::stimulus) {
-        const RenderedPicture rendered = pictures_.picture(picture.scene, picture.method, picture.fovea);
+        RenderedPicture rendered = pictures_.picture(picture.scene, picture.method, picture.fovea);
+        // The hash is of the stimulus, as on every other stage.
         shown.image_hash = rendered.hash;
+        if (picture.patch) draw_patch(rendered.rgba, rendered.size, patch_side_px(view_), *picture.patch);
         audience_.sees(rendered, shown.display_time);
     }
     return shown;

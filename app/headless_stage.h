@@ -16,7 +16,7 @@ class Audience {
     // Called for every frame; true when this frame must be rendered, which only a stimulus can be.
     virtual bool looks_at(const Picture& picture, HostTime display_time) = 0;
 
-    // The rendered frame, after looks_at said true.
+    // The rendered frame with its photodiode patch, after looks_at said true.
     virtual void sees(const RenderedPicture& picture, HostTime display_time) = 0;
 };
 

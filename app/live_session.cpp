@@ -54,13 +54,6 @@ SessionLog open_latest(const LiveSessionRequest& request, const Protocol& protoc
     return log;
 }
 
-// How often this planned trial was shown before, broken-off showings included.
-int attempts_before(const SessionLog& log, int number) {
-    return static_cast<int>(
-        std::count_if(log.shown().begin(), log.shown().end(),
-                      [number](const ShownTrial& shown) { return shown.number == number; }));
-}
-
 // The windows of a session: the participant's, and the operator's beside it or on another monitor.
 struct Windows {
     WindowSystem system;
@@ -234,13 +227,20 @@ class LiveSession {
         };
         if (gaze_follows_targets(request_.gaze))
             hooks.calibrate = [&] {
-                std::optional<CalibrationRecord> record = measure_calibration(stage, gaze, *clock_, stop);
-                if (record) board_.add_calibration(*record);
-                return record;
+                return told(measure_calibration(stage, gaze, *clock_, protocol_.calibration, stop));
+            };
+        if (gaze_follows_targets(request_.gaze))
+            hooks.check_drift = [&] {
+                return told(measure_drift(stage, gaze, *clock_, protocol_.calibration, stop));
             };
         SessionOptions options;
         options.real_time = real_time_;
         return run_session(*log_, stage, gaze, *controller_.source, *clock_, hooks, options);
+    }
+
+    std::optional<CalibrationRecord> told(std::optional<CalibrationRecord> record) {
+        if (record) board_.add_calibration(*record);
+        return record;
     }
 
     void prepare_for(const SessionProgress& progress) {
@@ -254,7 +254,7 @@ class LiveSession {
             headset_->prepare(progress.next->scene, progress.next->first);
             headset_->prepare(progress.next->scene, progress.next->second);
         }
-        person_->begin_trial(progress.next->number, attempts_before(*log_, progress.next->number));
+        person_->begin_trial(progress.next->number, progress.attempt);
     }
 
     // The session runs in a thread of its own, so that its frames do not wait for the window system's events

@@ -7,12 +7,13 @@
 #include <stdexcept>
 #include <utility>
 
+#include "app/photodiode_patch.h"
+
 namespace parafovea {
 
 namespace {
 
 constexpr std::size_t kPagesKept = 16;
-constexpr double kPatchDeg = 3;
 
 GpuOptions gpu_options(const OpenXrInstance& headset, bool validation) {
     GpuOptions options;
@@ -71,7 +72,7 @@ OpenXrStage::OpenXrStage(Clock& clock, const OpenXrStageOptions& options)
     refresh_hz_ = session_->refresh_hz().value_or(0);
     view_ = eyes_.view();
     pages_ = std::make_unique<ParticipantPages>(view_);
-    const int patch_px = std::max(1, static_cast<int>(kPatchDeg * view_.pixels_per_degree()));
+    const int patch_px = patch_side_px(view_);
     black_ = on_device(gpu_, blank_image({patch_px, patch_px}, 0));
     white_ = on_device(gpu_, blank_image({patch_px, patch_px}, 255));
     // What happened before the first picture is no fault of any.

@@ -106,7 +106,12 @@ void OperatorBoard::add_gaze(std::span<const GazeSample> samples) {
 
 void OperatorBoard::add_calibration(const CalibrationRecord& record) {
     const std::scoped_lock lock(mutex_);
+    if (record.kind == "drift check") {
+        now_.drift = record;
+        return;
+    }
     now_.calibration = record;
+    now_.drift.reset();
 }
 
 OperatorRequest OperatorBoard::take_request() {

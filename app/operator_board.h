@@ -43,7 +43,7 @@ struct OperatorView {
     std::vector<double> frame_ms;  // times between the last frames
     int missed = 0;                // refreshes missed within trials
     double refresh_hz = 0;
-    std::optional<CalibrationRecord> calibration;  // the last one
+    std::optional<CalibrationRecord> calibration, drift;  // the last ones; drift since that calibration
     bool controller_connected = true;
     OperatorRequest asked = OperatorRequest::none;  // and not served yet
 };

@@ -2,7 +2,6 @@
 #include "app/simulated_session.h"
 
 #include <cstdio>
-#include <map>
 
 #include "app/headless_stage.h"
 #include "app/simulated_person.h"
@@ -40,10 +39,9 @@ void run_simulated_session(const Protocol& protocol, const SimulatedSessionReque
                                         make_plan(protocol, request.participant_index, seed),
                                         read_clock_anchor(clock.now()));
     SessionHooks hooks;
-    std::map<int, int> showings;  // by the planned trial's number
     hooks.on_progress = [&](const SessionProgress& progress) {
         if (progress.next && progress.state == "trial")
-            person.begin_trial(progress.next->number, showings[progress.next->number]++);
+            person.begin_trial(progress.next->number, progress.attempt);
         on_progress(progress);
     };
     run_session(log, stage, person.tracker(), person.hand(), clock, hooks);

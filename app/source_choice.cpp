@@ -1,7 +1,9 @@
 // The one list of sources and their names.
 #include "app/source_choice.h"
 
+#include <charconv>
 #include <stdexcept>
+#include <string>
 #include <string_view>
 #include <type_traits>
 #include <utility>
@@ -21,7 +23,21 @@ namespace parafovea {
 
 namespace {
 
-constexpr std::string_view kReplay = "replay:";
+constexpr std::string_view kReplay = "replay:", kGazepoint = "gazepoint:";
+
+GazepointSettings gazepoint_at(const std::string& name) {
+    GazepointSettings settings;
+    if (!name.starts_with(kGazepoint)) return settings;
+    const std::string address = name.substr(kGazepoint.size());
+    const std::size_t colon = address.rfind(':');
+    const std::string port = colon == std::string::npos ? "" : address.substr(colon + 1);
+    const auto [end, error] = std::from_chars(port.data(), port.data() + port.size(), settings.port);
+    if (colon == 0 || port.empty() || error != std::errc() || end != port.data() + port.size())
+        throw std::runtime_error("--gaze " + name +
+                                 ": expected gazepoint:HOST:PORT, e.g. gazepoint:192.168.1.20:4242");
+    settings.host = address.substr(0, colon);
+    return settings;
+}
 
 template <typename Source>
 auto owned(std::unique_ptr<Source> source) {
@@ -51,14 +67,15 @@ ChosenSource<GazeSource> choose_gaze(const std::string& name, const SourceParts&
     if (name == "openxr" && parts.headset) return owned(std::make_unique<OpenXrGaze>(*parts.headset));
     if (name == "hid") return owned(std::make_unique<HidGaze>(parts.clock));
     if (name == "fove") return owned(std::make_unique<FoveGaze>(parts.clock));
-    if (name == "gazepoint") return owned(std::make_unique<GazepointGaze>(parts.clock));
+    if (name == "gazepoint" || name.starts_with(kGazepoint))
+        return owned(std::make_unique<GazepointGaze>(parts.clock, gazepoint_at(name)));
     if (name.starts_with(kReplay))
         return owned(std::make_unique<ReplayGaze>(
             parts.clock, read_gaze_recording(name.substr(kReplay.size())), ReplayOptions{.repeat = true}));
-    throw std::runtime_error(
-        "--gaze " + name +
-        ": expected hid, fove, gazepoint, simulated, replay:FILE, mouse with --display window, or openxr "
-        "with --display openxr");
+    throw std::runtime_error("--gaze " + name +
+                             ": expected hid, fove, gazepoint, gazepoint:HOST:PORT, simulated, replay:FILE, "
+                             "mouse with --display window, or openxr "
+                             "with --display openxr");
 }
 
 ChosenSource<ControllerSource> choose_controller(const std::string& name, const SourceParts& parts) {

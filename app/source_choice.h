@@ -30,8 +30,10 @@ struct ChosenSource {
     Source* source = nullptr;
 };
 
-// "simulated", or "replay:FILE" with a recording that devices/gaze_recording.h reads. Throws
-// std::runtime_error with one line for another name and where the source cannot be opened.
+// "simulated"; "hid"; "fove"; "gazepoint", or "gazepoint:HOST:PORT" where Gazepoint Control does not run on
+// this machine (HOST is a numeric address); "replay:FILE" with a recording that devices/gaze_recording.h
+// reads; "mouse" in a window, "openxr" in a headset. Throws std::runtime_error with one line for another name
+// and where the source cannot be opened.
 ChosenSource<GazeSource> choose_gaze(const std::string& name, const SourceParts& parts);
 
 // "evdev", "hidapi", "libusb", "simulated"; "keyboard" and "gamepad", in a window; or "auto": the first pad

@@ -10,6 +10,7 @@
 #include "app/headless_stage.h"
 #include "app/participant_pages.h"
 #include "app/picture_source.h"
+#include "app/window_picture.h"
 #include "app/window_surface.h"
 #include "app/window_timing.h"
 #include "study/protocol.h"
@@ -54,7 +55,7 @@ class WindowStage final : public Stage {
 
     const Ready& make_ready(const Picture& picture);
     void fill_with(Ready& ready, const Picture& picture, const std::string& name);
-    void present(const Ready& ready, bool patch_is_white);
+    void present(const Ready& ready, std::optional<bool> patch);
     void measure_refresh(const Monitor& monitor);
 
     WindowSurface& surface_;
@@ -64,8 +65,9 @@ class WindowStage final : public Stage {
     Audience* audience_;
     ParticipantPages pages_;
     std::list<Ready> ready_;  // the last one used in front
-    GpuImage white_;
+    WindowPicture window_picture_;
     std::string on_screen_;
+    std::optional<bool> patch_on_screen_;
     double refresh_hz_ = 0;
     std::optional<PacedRefreshes> paced_;
     std::optional<ObservedRefreshes> observed_;

@@ -29,8 +29,20 @@ void to_version_2(Database& database) {
         .run();
 }
 
+// 3: gaze between the showings has a table of its own; drift checks stand beside calibrations.
+void to_version_3(Database& database) {
+    database.execute(
+        "ALTER TABLE calibration ADD COLUMN kind TEXT NOT NULL DEFAULT 'calibration';"
+        "CREATE TABLE gaze_between (n INTEGER PRIMARY KEY, anchor INTEGER NOT NULL REFERENCES clock_anchor, "
+        "phase TEXT NOT NULL, sequence INTEGER NOT NULL, device_ns INTEGER NOT NULL, host_ns INTEGER NOT "
+        "NULL, host_error_ns INTEGER NOT NULL, arrival_host_ns INTEGER NOT NULL, status INTEGER NOT NULL, "
+        "azimuth_deg REAL, elevation_deg REAL, left_azimuth_deg REAL, left_elevation_deg REAL, "
+        "left_pupil_mm REAL, right_azimuth_deg REAL, right_elevation_deg REAL, right_pupil_mm REAL, "
+        "eyes INTEGER NOT NULL);");
+}
+
 using Step = void (*)(Database&);
-constexpr Step kSteps[] = {to_version_2};
+constexpr Step kSteps[] = {to_version_2, to_version_3};
 static_assert(std::size(kSteps) == kSchemaVersion - 1);
 
 void refuse_unknown_version(const std::string& path, std::int64_t version) {

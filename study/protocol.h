@@ -64,6 +64,7 @@ enum class IntervalOrder {
 };
 
 struct Design {
+    int participants = 0;     // planned, fixed before the data are seen; 0: not stated
     int training_trials = 0;      // distinct conditions drawn at random; not analysed
     int sessions = 1;             // testing sessions
     int repetitions = 1;          // of every condition within a session, block after block
@@ -89,13 +90,25 @@ struct Keys {
     Button proceed = Button::a;  // leaves a page of text
 };
 
+// How well the eye tracker must know the eye, before the session and between its blocks.
+struct CalibrationRules {
+    int targets = 9;         // 5, 9 or 13
+    double extent_deg = 15;  // farthest target from straight ahead; less where the picture ends sooner
+    double each_s = 1.5;     // a target stays; the first half second is the eye's way there and is not used
+    double greatest_mean_accuracy_deg = 2;  // no go beyond, ...
+    double greatest_loss_share = 0.2;  // ... beyond this share of lost samples, or without data at a target
+    // One target in the middle after each rest and at the start of each session; no go where the gaze misses
+    // it by more. Measured and stored, never corrected. Absent: no drift check.
+    std::optional<double> drift_check_deg;
+};
+
 // When a trial does not count, decided before the session. An absent rule is not applied.
 struct ValidityRules {
     std::optional<double>
         gaze_off_center_deg;  // a tracked sample farther from the centre, in either interval
     std::optional<double>
         gaze_off_share;  // ... tolerated up to this share of the tracked samples (default 0)
-    std::optional<double> gaze_lost_share;  // blinks and losses, of the intervals' samples
+    std::optional<double> gaze_lost_share;  // blinks, losses and silences, of the intervals' samples
     std::optional<double> gaze_age_ms;      // the oldest gaze any frame of the intervals was drawn with
     std::optional<int> missed_frames;       // more missed refreshes than this in the two intervals together
     bool unanswered = true;                 // no answer in time
@@ -123,8 +136,8 @@ struct ResumeRules {
 
 // What the participant reads. "{trial}", "{trials}", "{session}" and "{sessions}" are replaced when shown.
 struct Texts {
-    std::string introduction, calibration, training, session, question, rest, rest_after_failed_validation,
-        paused, finished;
+    std::string introduction, calibration, recalibrate, training, session, question, rest,
+        rest_after_failed_validation, paused, finished;
 };
 
 // What is asked beside the trials.
@@ -160,6 +173,7 @@ struct Protocol {
     Design design;
     Rests rests;
     Keys keys;
+    CalibrationRules calibration;
     ValidityRules validity;
     ExclusionRules exclusion;
     ResumeRules resume;

@@ -83,6 +83,7 @@ void read_timing(TomlSection& root, Timing& timing) {
 void read_design(TomlSection& root, Design& design) {
     auto section = root.section("design");
     if (!section) return root.missing("design", "a table [design] with sessions");
+    keep_int(design.participants, section->integer("participants", 1, 100000));
     keep_int(design.training_trials, section->integer("training_trials", 0, 10000));
     const auto sessions = section->integer("sessions", 1, 100);
     if (!sessions) section->missing("sessions", "sessions = 2");
@@ -138,6 +139,24 @@ void read_keys(TomlSection& root, Keys& keys) {
         section->mistake(section->line(),
                          "expected two different buttons for \"same\" and \"different\", found " +
                              std::string(button_name(keys.same)) + " for both; change one");
+    section->finish();
+}
+
+void read_calibration(TomlSection& root, CalibrationRules& rules) {
+    auto section = root.section("calibration");
+    if (!section) return;
+    if (const auto targets = section->integer("targets", 5, 13)) {
+        rules.targets = static_cast<int>(*targets);
+        if (*targets != 5 && *targets != 9 && *targets != 13)
+            section->mistake(
+                section->line_of("targets"),
+                "expected 5, 9 or 13 targets, found " + std::to_string(*targets) + "; write targets = 9");
+    }
+    keep(rules.extent_deg, section->number("extent_deg", {1, 60}));
+    keep(rules.each_s, section->number("each_s", {0.7, 30}));
+    keep(rules.greatest_mean_accuracy_deg, section->number("greatest_mean_accuracy_deg", {0.1, 90}));
+    keep(rules.greatest_loss_share, section->number("greatest_loss_share", {0, 1}));
+    keep(rules.drift_check_deg, section->number("drift_check_deg", {0.1, 90}));
     section->finish();
 }
 
@@ -199,6 +218,7 @@ void read_texts(TomlSection& root, Protocol& protocol) {
         const std::pair<std::string_view, std::string*> pages[] = {
             {"introduction", &texts.introduction},
             {"calibration", &texts.calibration},
+            {"recalibrate", &texts.recalibrate},
             {"training", &texts.training},
             {"session", &texts.session},
             {"question", &texts.question},
@@ -281,6 +301,7 @@ Protocol parse_protocol(std::string_view text, const std::string& file_name) {
     read_procedure(root, protocol);
     read_rests(root, protocol.rests);
     read_keys(root, protocol.keys);
+    read_calibration(root, protocol.calibration);
     read_validity(root, protocol.validity);
     read_exclusion(root, protocol.exclusion);
     read_resume(root, protocol.resume);

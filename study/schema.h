@@ -6,6 +6,6 @@ namespace parafovea {
 extern const char* const kSchemaSql;
 
 // PRAGMA user_version of a file with these tables.
-constexpr int kSchemaVersion = 2;
+constexpr int kSchemaVersion = 3;
 
 }  // namespace parafovea

@@ -130,7 +130,7 @@ CREATE TABLE frame (
 CREATE TABLE gaze_status (status INTEGER PRIMARY KEY, name TEXT NOT NULL);
 INSERT INTO gaze_status VALUES (0, 'tracked'), (1, 'low_accuracy'), (2, 'blink'), (3, 'lost');
 
--- Every gaze sample, in the order of arrival; blinks and losses are rows too. A showing's rows begin after the showing before it.
+-- Every gaze sample of a showing, in the order of arrival; blinks and losses are rows too.
 CREATE TABLE gaze (
     trial_id             INTEGER NOT NULL REFERENCES trial,
     n                    INTEGER NOT NULL,  -- from 0 within the showing
@@ -151,6 +151,29 @@ CREATE TABLE gaze (
     eyes                 INTEGER NOT NULL,  -- which eyes the device reported: 1 left, 2 right, 3 both, 0 neither
     PRIMARY KEY (trial_id, n)
 ) WITHOUT ROWID;
+
+-- Gaze between the showings, in the order of arrival: on pages of text, in rests, calibrations and drift checks, and while
+-- a trial was made ready. Nothing is stored from before consent was given.
+CREATE TABLE gaze_between (
+    n                    INTEGER PRIMARY KEY,
+    anchor               INTEGER NOT NULL REFERENCES clock_anchor,
+    phase                TEXT NOT NULL,     -- 'calibration', 'drift check', 'before trial 7', or a page's name
+    sequence             INTEGER NOT NULL,  -- this and all below: as in gaze
+    device_ns            INTEGER NOT NULL,
+    host_ns              INTEGER NOT NULL,
+    host_error_ns        INTEGER NOT NULL,
+    arrival_host_ns      INTEGER NOT NULL,
+    status               INTEGER NOT NULL,
+    azimuth_deg          REAL,
+    elevation_deg        REAL,
+    left_azimuth_deg     REAL,
+    left_elevation_deg   REAL,
+    left_pupil_mm        REAL,
+    right_azimuth_deg    REAL,
+    right_elevation_deg  REAL,
+    right_pupil_mm       REAL,
+    eyes                 INTEGER NOT NULL
+);
 
 -- Everything the hand controller did during a showing.
 CREATE TABLE controller_event (
@@ -207,7 +230,8 @@ CREATE TABLE calibration (
     accepted            INTEGER NOT NULL CHECK (accepted IN (0, 1)),
     mean_accuracy_deg   REAL,  -- NULL: not measured
     worst_accuracy_deg  REAL,
-    data_loss_share     REAL
+    data_loss_share     REAL,
+    kind                TEXT NOT NULL DEFAULT 'calibration'  -- 'calibration', or 'drift check' between blocks
 );
 
 -- One target of a calibration.

@@ -255,6 +255,11 @@ void SessionLog::append_calibration(CalibrationRecord record) {
     });
 }
 
+void SessionLog::append_gaze(std::string phase, std::vector<GazeSample> samples) {
+    state_->enqueue([phase = std::move(phase), samples = std::move(samples), anchor = state_->anchor](
+                        Database& database) { write_gaze_between(database, phase, samples, anchor); });
+}
+
 void SessionLog::append_page(HostTime time, const std::string& page) {
     append_event(time, "page", page);
     state_->pages_left.insert(page);

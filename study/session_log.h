@@ -61,11 +61,13 @@ struct CalibrationPoint {
     std::optional<double> accuracy_deg, precision_rms_deg, precision_sd_deg;
 };
 struct CalibrationRecord {
-    std::string method;  // who calibrated, e.g. "device", "validation only"
+    std::string kind = "calibration";  // or "drift check"
+    std::string method;                // who calibrated, e.g. "device", "validation only"
     HostTime started, ended;
     bool accepted = false;
     std::optional<double> mean_accuracy_deg, worst_accuracy_deg, data_loss_share;
     std::vector<CalibrationPoint> points;
+    std::vector<GazeSample> gaze;  // all that it was measured from; read back with read_gaze_between
 };
 
 // Every append returns at once: a thread of its own writes, one transaction for each, and what durable() or
@@ -103,6 +105,8 @@ class SessionLog {
     void append(TrialRecord record);
 
     void append_calibration(CalibrationRecord record);
+    // Gaze that belongs to no showing; `phase` says to what, e.g. "before trial 7" or a page's name.
+    void append_gaze(std::string phase, std::vector<GazeSample> samples);
     void append_page(HostTime time, const std::string& page);  // the participant left this page of text
     void append_event(HostTime time, std::string kind,
                       std::string detail);              // "pause", "resumed", "stopped", ...

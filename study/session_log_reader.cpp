@@ -29,7 +29,7 @@ std::vector<CalibrationRecord> read_calibrations(Database& database) {
     Statement row = database.prepare(
         "SELECT calibration, method, started_host_ns, ended_host_ns, accepted, mean_accuracy_deg, "
         "worst_accuracy_deg, "
-        "data_loss_share FROM calibration ORDER BY calibration");
+        "data_loss_share, kind FROM calibration ORDER BY calibration");
     while (row.step()) {
         CalibrationRecord record;
         record.method = row.text(1);
@@ -39,6 +39,7 @@ std::vector<CalibrationRecord> read_calibrations(Database& database) {
         record.mean_accuracy_deg = row.optional_real(5);
         record.worst_accuracy_deg = row.optional_real(6);
         record.data_loss_share = row.optional_real(7);
+        record.kind = row.text(8);
         Statement point = database.prepare(
             "SELECT target_azimuth_deg, target_elevation_deg, measured_azimuth_deg, measured_elevation_deg, "
             "samples, "
@@ -113,6 +114,26 @@ std::vector<TrialRow> read_trials(Database& database, const TrialPlan& plan) {
     return trials;
 }
 
+constexpr const char* kSampleColumns =
+    "sequence, device_ns, host_ns, host_error_ns, arrival_host_ns, status, eyes, azimuth_deg, elevation_deg, "
+    "left_azimuth_deg, left_elevation_deg, left_pupil_mm, right_azimuth_deg, right_elevation_deg, "
+    "right_pupil_mm";
+
+// Of a row that begins with these columns.
+GazeSample sample_of(const Statement& row) {
+    GazeSample sample;
+    sample.sequence = row.integer(0);
+    sample.device_time = {row.integer(1)};
+    sample.host_time = {row.integer(2)};
+    sample.host_time_error = {row.integer(3)};
+    sample.arrival_time = {row.integer(4)};
+    sample.status = static_cast<GazeStatus>(row.integer(5));
+    sample.direction = direction(row, 7);
+    if (row.integer(6) & 1) sample.left = EyeSample{direction(row, 9), row.optional_real(11)};
+    if (row.integer(6) & 2) sample.right = EyeSample{direction(row, 12), row.optional_real(14)};
+    return sample;
+}
+
 Statement rows_of_trial(Database& database, std::string_view sql, int trial_number, int attempt) {
     Statement row = database.prepare(sql);
     row.bind_all(trial_number, attempt);
@@ -120,6 +141,13 @@ Statement rows_of_trial(Database& database, std::string_view sql, int trial_numb
 }
 
 }  // namespace
+
+const CalibrationRecord* SessionRows::last_calibration() const {
+    const auto last =
+        std::find_if(calibrations.rbegin(), calibrations.rend(),
+                     [](const CalibrationRecord& record) { return record.kind == "calibration"; });
+    return last == calibrations.rend() ? nullptr : &*last;
+}
 
 SessionRows read_session(const std::filesystem::path& path) {
     const std::unique_ptr<Database> open = open_for_reading(path);
@@ -210,27 +238,21 @@ std::vector<FrameRecord> read_frames(const std::filesystem::path& path, int tria
 std::vector<GazeSample> read_gaze(const std::filesystem::path& path, int trial_number, int attempt) {
     const std::unique_ptr<Database> open = open_for_reading(path);
     std::vector<GazeSample> samples;
+    Statement row = rows_of_trial(*open,
+                                  std::string("SELECT ") + kSampleColumns +
+                                      " FROM gaze JOIN trial USING (trial_id) WHERE trial = ? AND attempt = "
+                                      "? ORDER BY n",
+                                  trial_number, attempt);
+    while (row.step()) samples.push_back(sample_of(row));
+    return samples;
+}
+
+std::vector<GazeBetween> read_gaze_between(const std::filesystem::path& path) {
+    const std::unique_ptr<Database> open = open_for_reading(path);
+    std::vector<GazeBetween> samples;
     Statement row =
-        rows_of_trial(*open,
-                      "SELECT sequence, device_ns, host_ns, host_error_ns, arrival_host_ns, status, eyes, "
-                      "azimuth_deg, elevation_deg, "
-                      "left_azimuth_deg, left_elevation_deg, left_pupil_mm, right_azimuth_deg, "
-                      "right_elevation_deg, right_pupil_mm "
-                      "FROM gaze JOIN trial USING (trial_id) WHERE trial = ? AND attempt = ? ORDER BY n",
-                      trial_number, attempt);
-    while (row.step()) {
-        GazeSample sample;
-        sample.sequence = row.integer(0);
-        sample.device_time = {row.integer(1)};
-        sample.host_time = {row.integer(2)};
-        sample.host_time_error = {row.integer(3)};
-        sample.arrival_time = {row.integer(4)};
-        sample.status = static_cast<GazeStatus>(row.integer(5));
-        sample.direction = direction(row, 7);
-        if (row.integer(6) & 1) sample.left = EyeSample{direction(row, 9), row.optional_real(11)};
-        if (row.integer(6) & 2) sample.right = EyeSample{direction(row, 12), row.optional_real(14)};
-        samples.push_back(sample);
-    }
+        open->prepare(std::string("SELECT ") + kSampleColumns + ", phase FROM gaze_between ORDER BY n");
+    while (row.step()) samples.push_back({row.text(15), sample_of(row)});
     return samples;
 }
 

@@ -50,8 +50,11 @@ struct SessionRows {
     std::vector<TrialRow> trials;  // in the order shown
     std::vector<EventRow> events;
     std::vector<EventRow> notes;
-    std::vector<CalibrationRecord> calibrations;
+    std::vector<CalibrationRecord> calibrations;  // drift checks too; without their gaze
     std::map<std::string, std::map<std::string, std::string>> questionnaires;
+
+    // The last one that is no drift check; null where there is none.
+    const CalibrationRecord* last_calibration() const;
 };
 
 // Everything but frames, gaze and button events, which are read trial by trial. Throws std::runtime_error
@@ -70,5 +73,12 @@ std::vector<FrameRecord> read_frames(const std::filesystem::path& path, int tria
 std::vector<GazeSample> read_gaze(const std::filesystem::path& path, int trial_number, int attempt = 0);
 std::vector<ControllerEvent> read_controller_events(const std::filesystem::path& path, int trial_number,
                                                     int attempt = 0);
+
+// Gaze that belongs to no showing, in the order of arrival.
+struct GazeBetween {
+    std::string phase;  // as in SessionLog::append_gaze
+    GazeSample sample;
+};
+std::vector<GazeBetween> read_gaze_between(const std::filesystem::path& path);
 
 }  // namespace parafovea

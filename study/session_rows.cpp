@@ -58,21 +58,22 @@ void write_frames(Database& database, const TrialRecord& record, std::int64_t tr
     }
 }
 
+// The columns that both tables of gaze have, after those that say where a sample belongs.
+Statement& bind_sample(Statement& insert, const GazeSample& sample) {
+    const EyeSample left = sample.left.value_or(EyeSample()), right = sample.right.value_or(EyeSample());
+    return insert.bind_all(sample.sequence, sample.device_time.ns, sample.host_time.ns,
+                           sample.host_time_error.ns, sample.arrival_time.ns, static_cast<int>(sample.status),
+                           azimuth(sample.direction), elevation(sample.direction), azimuth(left.direction),
+                           elevation(left.direction), left.pupil_mm, azimuth(right.direction),
+                           elevation(right.direction), right.pupil_mm,
+                           (sample.left ? 1 : 0) + (sample.right ? 2 : 0));
+}
+
 void write_gaze(Database& database, const TrialRecord& record, std::int64_t trial_id) {
     Statement insert =
         database.prepare("INSERT INTO gaze VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
     int n = 0;
-    for (const GazeSample& sample : record.gaze) {
-        const EyeSample left = sample.left.value_or(EyeSample()), right = sample.right.value_or(EyeSample());
-        insert
-            .bind_all(trial_id, n++, sample.sequence, sample.device_time.ns, sample.host_time.ns,
-                      sample.host_time_error.ns, sample.arrival_time.ns, static_cast<int>(sample.status),
-                      azimuth(sample.direction), elevation(sample.direction), azimuth(left.direction),
-                      elevation(left.direction), left.pupil_mm, azimuth(right.direction),
-                      elevation(right.direction), right.pupil_mm,
-                      (sample.left ? 1 : 0) + (sample.right ? 2 : 0))
-            .run();
-    }
+    for (const GazeSample& sample : record.gaze) bind_sample(insert.bind_all(trial_id, n++), sample).run();
 }
 
 void write_controller_events(Database& database, const TrialRecord& record, std::int64_t trial_id) {
@@ -160,10 +161,17 @@ void write_trial(Database& database, const TrialRecord& record, std::int64_t anc
     for (const std::string& rule : record.invalid) flag.bind_all(trial_id, rule).run();
 }
 
+void write_gaze_between(Database& database, const std::string& phase, std::span<const GazeSample> samples,
+                        std::int64_t anchor) {
+    Statement insert = database.prepare(
+        "INSERT INTO gaze_between VALUES (NULL, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+    for (const GazeSample& sample : samples) bind_sample(insert.bind_all(anchor, phase), sample).run();
+}
+
 void write_calibration(Database& database, const CalibrationRecord& record, std::int64_t anchor) {
-    database.prepare("INSERT INTO calibration VALUES (NULL, ?, ?, ?, ?, ?, ?, ?, ?)")
+    database.prepare("INSERT INTO calibration VALUES (NULL, ?, ?, ?, ?, ?, ?, ?, ?, ?)")
         .bind_all(anchor, record.method, record.started.ns, record.ended.ns, record.accepted,
-                  record.mean_accuracy_deg, record.worst_accuracy_deg, record.data_loss_share)
+                  record.mean_accuracy_deg, record.worst_accuracy_deg, record.data_loss_share, record.kind)
         .run();
     const std::int64_t calibration = database.last_row_id();
     Statement insert =
@@ -175,6 +183,7 @@ void write_calibration(Database& database, const CalibrationRecord& record, std:
                       azimuth(point.measured), elevation(point.measured), point.samples, point.valid_samples,
                       point.accuracy_deg, point.precision_rms_deg, point.precision_sd_deg)
             .run();
+    write_gaze_between(database, record.kind, record.gaze, anchor);
 }
 
 std::string read_protocol_text(Database& database, std::string* file_name) {

@@ -1,6 +1,8 @@
 // The statements that write and read one session file's rows; the one place that knows the columns.
 #pragma once
 
+#include <span>
+#include <string>
 #include <vector>
 
 #include "study/database.h"
@@ -20,6 +22,8 @@ std::int64_t write_anchor(Database& database, ClockAnchor anchor);
 // All rows of one showing. The caller holds the transaction.
 void write_trial(Database& database, const TrialRecord& record, std::int64_t anchor);
 void write_calibration(Database& database, const CalibrationRecord& record, std::int64_t anchor);
+void write_gaze_between(Database& database, const std::string& phase, std::span<const GazeSample> samples,
+                        std::int64_t anchor);
 
 std::string read_protocol_text(Database& database, std::string* file_name);
 TrialPlan read_plan(Database& database);

@@ -2,6 +2,7 @@
 #include "study/session_runner.h"
 
 #include <algorithm>
+#include <cstdio>
 #include <stdexcept>
 #include <utility>
 #include <vector>
@@ -60,12 +61,16 @@ class RunningSession {
     SessionEnd run() {
         if (log_.resumed()) go_on_after_interruption();
         if (!ask_all(questionnaires_before(protocol_))) return stopped();
+        forget_gaze();
         page("introduction", protocol_.text().introduction);
         calibrate();
         while (const std::optional<NextTrial> next =
                    next_trial(log_.plan(), log_.shown(), protocol_.validity)) {
             if (!prepare_for(*next->planned)) return stopped();
-            if (!serve_operator()) continue;
+            if (!serve_operator()) {
+                if (stop_requested() || aborted_) return stopped();
+                continue;
+            }
             if (!show_trial(*next)) return stopped();
         }
         if (hooks_.stop.stop_requested()) return stopped();
@@ -78,10 +83,13 @@ class RunningSession {
     }
 
   private:
-    bool stop_requested() const { return hooks_.stop.stop_requested(); }
+    bool stop_requested() const { return hooks_.stop.stop_requested() || aborted_; }
 
     SessionEnd stopped() {
-        log_.append_event(clock_.now(), "stopped", "");
+        keep_gaze();
+        // The operator's abort stops the running trial before it is read here.
+        if (hooks_.operator_request && hooks_.operator_request() == OperatorRequest::abort) aborted_ = true;
+        log_.append_event(clock_.now(), "stopped", aborted_ ? "by the operator" : "");
         log_.wait_until_durable();
         return SessionEnd::stopped;
     }
@@ -124,35 +132,40 @@ class RunningSession {
                           restart ? "session restarted" : "at the first unanswered trial");
     }
 
-    void tell(const char* state, const PlannedTrial* next) {
+    void tell(const char* state, const NextTrial* next) {
         if (!hooks_.on_progress) return;
         const std::vector<Standing> all = standings(log_.plan(), log_.shown());
         SessionProgress progress;
         progress.total = static_cast<int>(all.size());
         for (std::size_t i = 0; i < all.size(); ++i)
             if (settled(log_.plan().trials[i], all[i], protocol_.validity)) ++progress.done;
-        progress.session = next ? next->session : session_;
+        progress.session = next ? next->planned->session : session_;
         progress.sessions = protocol_.design.sessions;
-        progress.next = next;
+        progress.next = next ? next->planned : nullptr;
+        progress.attempt = next ? next->attempt : 0;
         progress.state = state;
         hooks_.on_progress(progress);
     }
 
-    // Everything that comes before a trial: the pages of its session, and a rest. False: stop.
+    // Everything that comes before a trial: a rest, the pages of its session, and a look at the eye tracker.
+    // False: stop.
     bool prepare_for(const PlannedTrial& next) {
         session_ = next.session;
-        rest_if_due(next);
-        if (next.session == 0)
-            page("training", protocol_.text().training);
-        else
-            page("session " + std::to_string(next.session), protocol_.text().session);
+        const bool rested = rest_if_due(next);
+        const bool began = next.session == 0
+                               ? page("training", protocol_.text().training)
+                               : page("session " + std::to_string(next.session), protocol_.text().session);
+        // The first session begins right after the calibration where there is no training.
+        if (rested || (began && !just_calibrated_)) check_drift();
+        just_calibrated_ = false;
         return !stop_requested();
     }
 
-    void rest_if_due(const PlannedTrial& next) {
-        if (log_.shown().empty()) return;
+    // Whether there was a rest.
+    bool rest_if_due(const PlannedTrial& next) {
+        if (log_.shown().empty()) return false;
         const ShownTrial& last = log_.shown().back();
-        if (last.interrupted || last.superseded) return;
+        if (last.interrupted || last.superseded) return false;
         const PlannedTrial& planned = log_.plan().trials[static_cast<std::size_t>(last.number)];
         const bool failed = planned.kind == TrialKind::validation && last.answered && !last.identical;
         const bool session_over = planned.session > 0 && planned.session != next.session;
@@ -163,48 +176,101 @@ class RunningSession {
         const bool reminder = protocol_.rests.every_trials && planned.session > 0 &&
                               in_session % *protocol_.rests.every_trials == 0;
         const bool after_failed = failed && protocol_.rests.after_failed_validation;
-        if (!after_failed && !reminder && !(session_over && protocol_.rests.after_session)) return;
+        if (!after_failed && !reminder && !(session_over && protocol_.rests.after_session)) return false;
         // Named after the trial, so that a rest cut short by a crash is given again and a completed one is
         // not.
         const std::string name =
             "rest after trial " + std::to_string(last.number) + " attempt " + std::to_string(last.attempt);
         const Texts& texts = protocol_.text();
         const bool other_text = after_failed && !texts.rest_after_failed_validation.empty();
-        page(name, other_text ? texts.rest_after_failed_validation : texts.rest, protocol_.rests.at_least_s);
+        return page(name, other_text ? texts.rest_after_failed_validation : texts.rest,
+                    protocol_.rests.at_least_s);
     }
 
-    // Shows a page of text until the participant leaves it, once in a session's life.
-    void page(const std::string& name, const std::string& text, double at_least_s = 0) {
-        if (!options_.show_texts || text.empty() || log_.page_was_left(name) || stop_requested()) return;
+    // Shows a page of text until the participant leaves it, once in a session's life. Whether it was left
+    // now.
+    bool page(const std::string& name, const std::string& text, double at_least_s = 0) {
+        if (!options_.show_texts || text.empty() || log_.page_was_left(name) || stop_requested())
+            return false;
         tell(name.c_str(), nullptr);
-        if (show_text(text, at_least_s, true)) log_.append_page(clock_.now(), name);
+        if (!show_text(name, text, at_least_s, true)) return false;
+        log_.append_page(clock_.now(), name);
+        return true;
     }
+
+    // How a page of text was left: the participant's button or the operator's request; neither: by a stop.
+    struct PageEnd {
+        std::optional<Button> button;
+        OperatorRequest request = OperatorRequest::none;
+    };
 
     // False where it was ended by a stop.
-    bool show_text(const std::string& text, double at_least_s, bool participant_may_leave) {
+    bool show_text(const std::string& name, const std::string& text, double at_least_s,
+                   bool participant_may_leave) {
+        std::vector<Button> buttons;
+        if (participant_may_leave) buttons.push_back(protocol_.keys.proceed);
+        const PageEnd end = wait_on_page(name, text, at_least_s, buttons);
+        return end.button || end.request == OperatorRequest::proceed;
+    }
+
+    // Shows text until one of the buttons is pressed, or until the operator goes on, or asks for what
+    // `answers` holds; what else the operator asks for is done after the page.
+    PageEnd wait_on_page(const std::string& name, const std::string& text, double at_least_s,
+                         const std::vector<Button>& buttons,
+                         OperatorRequest answers = OperatorRequest::proceed) {
         Picture picture;
         picture.kind = PictureKind::text;
         picture.text = filled(text);
+        gaze_belongs_to(name);
         std::vector<ControllerEvent> events;
         controller_.drain(events);
         std::optional<HostTime> may_leave;
         while (!stop_requested()) {
             const ShownFrame frame = stage_.show(picture);
+            collect_gaze();
             if (!may_leave) may_leave = frame.display_time + Duration::from_seconds(at_least_s);
             events.clear();
             controller_.drain(events);
-            const bool left = std::any_of(events.begin(), events.end(), [&](const ControllerEvent& event) {
-                return event.kind == ControllerEventKind::press && event.button == protocol_.keys.proceed &&
-                       event.time >= *may_leave;
-            });
-            if (left && participant_may_leave) return true;
+            for (const ControllerEvent& event : events) {
+                const bool leaves = std::ranges::find(buttons, event.button) != buttons.end();
+                if (event.kind == ControllerEventKind::press && leaves && event.time >= *may_leave)
+                    return {event.button, OperatorRequest::none};
+            }
             if (!hooks_.operator_request) continue;
             const OperatorRequest request = hooks_.operator_request();
-            if (request == OperatorRequest::proceed) return true;
-            // What cannot be done on a page is done after it.
+            if (request == OperatorRequest::abort) aborted_ = true;
+            if (request == OperatorRequest::proceed || request == answers) return {std::nullopt, request};
             if (request != OperatorRequest::none) waiting_request_ = request;
         }
-        return false;
+        return {};
+    }
+
+    // What arrived before now was seen before the participant agreed, or is nobody's.
+    void forget_gaze() {
+        gaze_.drain(between_);
+        between_.clear();
+    }
+
+    // Gaze that arrives from now on belongs to this part of the session.
+    void gaze_belongs_to(const std::string& phase) {
+        keep_gaze();
+        gaze_phase_ = phase;
+    }
+
+    void collect_gaze() {
+        constexpr std::size_t kManySamples = 1200;  // ten seconds at 120 Hz
+        gaze_.drain(between_);
+        if (between_.size() >= kManySamples) store_gaze();
+    }
+
+    void keep_gaze() {
+        if (gaze_phase_.empty()) return;
+        gaze_.drain(between_);
+        store_gaze();
+    }
+
+    void store_gaze() {
+        if (!between_.empty()) log_.append_gaze(gaze_phase_, std::exchange(between_, {}));
     }
 
     std::string filled(const std::string& text) const {
@@ -219,11 +285,58 @@ class RunningSession {
         if (!hooks_.calibrate || stop_requested() ||
             !next_trial(log_.plan(), log_.shown(), protocol_.validity))
             return;
+        constexpr int kMostTimes = 3;
+        for (int times = 1; measure_calibration(); ++times)
+            if (times == kMostTimes || !recalibration_wanted()) break;
+        just_calibrated_ = true;
+    }
+
+    // Whether it was measured and is not good enough.
+    bool measure_calibration() {
         if (options_.show_texts && !protocol_.text().calibration.empty())
-            show_text(protocol_.text().calibration, 0, true);
+            show_text("before calibration", protocol_.text().calibration, 0, true);
+        if (stop_requested()) return false;
         tell("calibration", nullptr);
-        if (std::optional<CalibrationRecord> record = hooks_.calibrate())
-            log_.append_calibration(*std::move(record));
+        return measure("calibration", hooks_.calibrate);
+    }
+
+    // Between blocks: measured, stored and told; nothing is corrected.
+    void check_drift() {
+        if (!hooks_.check_drift || !protocol_.calibration.drift_check_deg || stop_requested()) return;
+        tell("drift check", nullptr);
+        if (measure("drift check", hooks_.check_drift) && recalibration_wanted()) calibrate();
+    }
+
+    bool measure(const char* phase, const std::function<std::optional<CalibrationRecord>()>& how) {
+        gaze_belongs_to(phase);
+        std::optional<CalibrationRecord> record = how();
+        // What it drained comes with the record.
+        if (!record) return false;
+        const bool no_go = !record->accepted;
+        if (no_go) {
+            char detail[64] = "no gaze";
+            if (record->mean_accuracy_deg)
+                std::snprintf(detail, sizeof detail, "%.2f degrees", *record->mean_accuracy_deg);
+            log_.append_event(clock_.now(), std::string(phase) + " not good enough", detail);
+        }
+        log_.append_calibration(*std::move(record));
+        return no_go;
+    }
+
+    // Offers a calibration to the participant (proceed: yes, different: no) and to the operator. Without a
+    // text for it, the operator alone sees the figures and may ask for one.
+    bool recalibration_wanted() {
+        if (!options_.show_texts || protocol_.text().recalibrate.empty() || stop_requested()) return false;
+        tell("recalibration offered", nullptr);
+        const PageEnd end =
+            wait_on_page("recalibration offered", protocol_.text().recalibrate, 0,
+                         {protocol_.keys.proceed, protocol_.keys.different}, OperatorRequest::recalibrate);
+        const bool wanted =
+            end.button == protocol_.keys.proceed || end.request == OperatorRequest::recalibrate;
+        if (!stop_requested())
+            log_.append_event(clock_.now(), wanted ? "recalibration" : "no recalibration",
+                              end.button ? "by the participant" : "by the operator");
+        return wanted;
     }
 
     // Between trials. False where what comes next has to be found out anew.
@@ -238,13 +351,14 @@ class RunningSession {
             case OperatorRequest::pause:
                 tell("paused", nullptr);
                 log_.append_event(clock_.now(), "paused", "by the operator");
-                show_text(protocol_.text().paused, 0, false);
+                show_text("paused", protocol_.text().paused, 0, false);
                 log_.append_event(clock_.now(), "pause ended", "by the operator");
                 return false;
             case OperatorRequest::rest:
                 tell("rest", nullptr);
                 log_.append_event(clock_.now(), "rest", "by the operator");
-                show_text(protocol_.text().rest, protocol_.rests.at_least_s, true);
+                show_text("rest", protocol_.text().rest, protocol_.rests.at_least_s, true);
+                check_drift();
                 return false;
             case OperatorRequest::recalibrate:
                 log_.append_event(clock_.now(), "recalibration", "by the operator");
@@ -256,12 +370,18 @@ class RunningSession {
                                   "trial " + std::to_string(log_.shown().back().number));
                 log_.supersede_trial(log_.shown().back().number);
                 return false;
+            case OperatorRequest::abort:
+                aborted_ = true;
+                return false;
         }
         return true;
     }
 
     bool show_trial(const NextTrial& next) {
-        tell("trial", next.planned);
+        // Scenes may be loaded and pictures drawn now; what the eyes do meanwhile is not of the trial.
+        gaze_belongs_to("before trial " + std::to_string(next.planned->number));
+        tell("trial", &next);
+        keep_gaze();
         TrialControl control;
         control.stop = hooks_.stop;
         // Every answer is on the disk before the next stimulus.
@@ -277,6 +397,7 @@ class RunningSession {
         record.attempt = next.attempt;
         record.level = level;
         if (hooks_.on_trial) hooks_.on_trial(record);
+        gaze_phase_ = "after trial " + std::to_string(next.planned->number);
         const bool interrupted = record.interrupted;
         log_.append(std::move(record));
         return !interrupted;
@@ -291,6 +412,9 @@ class RunningSession {
     const SessionHooks& hooks_;
     const SessionOptions& options_;
     int session_ = 0;
+    bool aborted_ = false, just_calibrated_ = false;
+    std::vector<GazeSample> between_;  // that belongs to no trial and is not with the log yet
+    std::string gaze_phase_;           // what it belongs to
     OperatorRequest waiting_request_ = OperatorRequest::none;
 };
 

@@ -22,11 +22,12 @@ struct SessionProgress {
     int total = 0;  // planned trials
     int session = 0, sessions = 0;
     const PlannedTrial* next = nullptr;  // absent between trials
+    int attempt = 0;                     // how often the next was shown before, broken-off showings included
     std::string state;                   // "introduction", "trial", "rest", "paused", "finished", ...
 };
 
 // What the operator may ask for; read between trials and on every frame of a page of text.
-enum class OperatorRequest { none, pause, proceed, rest, repeat_last, recalibrate };
+enum class OperatorRequest { none, pause, proceed, rest, repeat_last, recalibrate, abort };
 
 // The session's connections to the program. All may be left empty.
 struct SessionHooks {
@@ -35,6 +36,7 @@ struct SessionHooks {
     std::function<OperatorRequest()> operator_request;
     std::function<std::optional<CalibrationRecord>()>
         calibrate;  // runs and measures a calibration; none if it was skipped
+    std::function<std::optional<CalibrationRecord>()> check_drift;  // measures how far the gaze is off
     // Asks the participant; nothing where they leave instead. Needed where the protocol asks for consent and
     // people are real, unless the log holds their consent already. Every answer must pass answer_mistake.
     std::function<std::optional<QuestionnaireAnswers>(const Questionnaire&)> ask;

@@ -55,8 +55,8 @@ struct TrialRecord {
     HostTime started;
     std::array<IntervalRecord, 5> intervals;  // by Phase
     std::vector<FrameRecord> frames;
-    std::vector<GazeSample> gaze;         // all that arrived since the trial before
-    std::vector<ControllerEvent> events;  // likewise
+    std::vector<GazeSample> gaze;         // all that arrived during the trial
+    std::vector<ControllerEvent> events;  // all since the trial, or the page, before
     std::optional<Answer> answer;         // none: the window ended first
     std::vector<std::string> invalid;     // which validity rules it broke, e.g. "missed_frames"; empty: valid
     bool interrupted = false;             // stopped from outside: no answer, and it will be shown again

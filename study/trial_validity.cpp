@@ -2,6 +2,8 @@
 #include "study/trial_validity.h"
 
 #include <algorithm>
+#include <cstdint>
+#include <optional>
 
 namespace parafovea {
 namespace {
@@ -19,16 +21,44 @@ struct GazeCounts {
     int all = 0, with_direction = 0, off_center = 0;
 };
 
+// The tracker's own rate, from the median spacing of the trial's samples; none where there are too few.
+std::optional<Duration> sample_period(const TrialRecord& record) {
+    std::vector<std::int64_t> spacing;
+    for (std::size_t i = 1; i < record.gaze.size(); ++i)
+        spacing.push_back((record.gaze[i].host_time - record.gaze[i - 1].host_time).ns);
+    std::erase_if(spacing, [](std::int64_t ns) { return ns <= 0; });
+    if (spacing.empty()) return std::nullopt;
+    const auto middle = spacing.begin() + static_cast<std::ptrdiff_t>(spacing.size() / 2);
+    std::nth_element(spacing.begin(), middle, spacing.end());
+    return Duration{*middle};
+}
+
+// How many samples a tracker that fell silent did not deliver: those that a span without any, longer than a
+// few periods, would have held. Shorter spans are a tracker's jitter.
+int samples_missing(HostTime from, HostTime to, Duration period) {
+    constexpr std::int64_t kSilentPeriods = 4;
+    if (to - from <= period * kSilentPeriods) return 0;
+    return static_cast<int>((to - from).ns / period.ns) - 1;
+}
+
 GazeCounts count_gaze(const TrialRecord& record, double off_center_deg) {
     GazeCounts counts;
-    for (const GazeSample& sample : record.gaze) {
-        if (!seen_during(sample, of(record, Phase::first_interval)) &&
-            !seen_during(sample, of(record, Phase::second_interval)))
-            continue;
-        ++counts.all;
-        if (!sample.direction) continue;
-        ++counts.with_direction;
-        if (angle_between_deg(*sample.direction, {}) > off_center_deg) ++counts.off_center;
+    const std::optional<Duration> period = sample_period(record);
+    for (const Phase phase : {Phase::first_interval, Phase::second_interval}) {
+        const IntervalRecord& interval = of(record, phase);
+        HostTime last = interval.first_display;
+        int missing = 0;
+        for (const GazeSample& sample : record.gaze) {
+            if (!seen_during(sample, interval)) continue;
+            if (period) missing += samples_missing(last, sample.host_time, *period);
+            last = std::max(last, sample.host_time);
+            ++counts.all;
+            if (!sample.direction) continue;
+            ++counts.with_direction;
+            if (angle_between_deg(*sample.direction, {}) > off_center_deg) ++counts.off_center;
+        }
+        if (period && interval.presented_frames > 0) missing += samples_missing(last, interval.end, *period);
+        counts.all += missing;
     }
     return counts;
 }
