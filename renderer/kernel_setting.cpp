@@ -108,7 +108,7 @@ const std::vector<KernelKind>& all_kernel_kinds() {
 
 void check(const KernelSetting& setting) {
     check_range("sigma", setting.sigma, 0.5, 50);
-    if (setting.kind == KernelKind::power) check_range("alpha", setting.alpha, 0.1, 32);
+    if (setting.kind == KernelKind::power) check_range("alpha", setting.alpha, 0.0625, 32);
     if (setting.kind == KernelKind::polynomial) check_polynomial(setting.betas);
     check_range("width_scale", setting.width_scale, 0.05, 8);
     check_range("height_scale", setting.height_scale, 0.05, 8);

@@ -28,7 +28,7 @@ const std::vector<KernelKind>& all_kernel_kinds();
 struct KernelSetting {
     KernelKind kind = KernelKind::power;
     double sigma = 1.8;         // screen pixels per buffer texel along each side; 0.5 to 50
-    double alpha = 4;           // exponent of the power kernel; 0.1 to 32
+    double alpha = 4;           // exponent of the power kernel; 1/16 to 32
     std::vector<double> betas;  // coefficients of the polynomial kernel; 1 to 8, adding up to 1
     double width_scale = 1;     // the buffer's columns, times this; 0.05 to 8
     double height_scale = 1;    // and its rows: the published shape is 6 times too coarse around the corners

@@ -5,6 +5,7 @@
 
 #ifdef __cplusplus
 
+#include <bit>
 #include <cmath>
 #include <cstdint>
 
@@ -42,6 +43,10 @@ struct alignas(16) mat4 {
     float columns[16];
 };
 
+// The bits of a float as a whole number, and back.
+inline int bits_of(float x) { return std::bit_cast<int>(x); }
+inline float float_of(int bits) { return std::bit_cast<float>(bits); }
+
 inline float min(float a, float b) { return a < b ? a : b; }
 inline float max(float a, float b) { return a > b ? a : b; }
 inline float clamp(float x, float low, float high) { return min(max(x, low), high); }
@@ -54,6 +59,9 @@ inline float clamp(float x, float low, float high) { return min(max(x, low), hig
 #define SHARED_BEGIN
 #define SHARED_END
 #define SHARED_FUNCTION
+
+int bits_of(float x) { return floatBitsToInt(x); }
+float float_of(int bits) { return intBitsToFloat(bits); }
 
 #endif
 

@@ -11,6 +11,7 @@
 #define PARAFOVEA_KERNEL_MAP_H
 
 #include "bridge.h"
+#include "elementary.h"
 
 SHARED_BEGIN
 
@@ -22,8 +23,6 @@ const uint kKernelExponential = 3u;  // (e^x - 1) / (e - 1)
 // distance, as the eye's smallest resolvable angle does; for a native inset of at least r0. Its x is not ln r
 // / L.
 const uint kKernelLinearMar = 4u;
-
-const float kMapPi = 3.14159265358979f;
 
 // Uniform block; std140. Sizes in pixels or texels as floats.
 struct KernelMap {
@@ -44,44 +43,6 @@ struct KernelMap {
     float pad_1;
 };
 
-// arctan(x) for x in [0, 1], to 2e-8 (Abramowitz and Stegun 1964, 4.4.49). Vulkan lets atan() be off by 4096
-// ULP.
-SHARED_FUNCTION float arctan_unit(float x) {
-    float s = x * x;
-    float p = 0.0028662257f;
-    p = p * s - 0.0161657367f;
-    p = p * s + 0.0429096138f;
-    p = p * s - 0.0752896400f;
-    p = p * s + 0.1065626393f;
-    p = p * s - 0.1420889944f;
-    p = p * s + 0.1999355085f;
-    p = p * s - 0.3333314528f;
-    return x + x * s * p;
-}
-
-// (cos, sin) of an angle given in turns, to 1e-7. Vulkan lets sin() and cos() be off by 2^-11.
-SHARED_FUNCTION vec2 unit_vector(float turns) {
-    float quarter = floor(turns * 4.0f + 0.5f);
-    float x = (turns - quarter * 0.25f) * (2.0f * kMapPi);
-    float s = x * x;
-    float sine =
-        x *
-        (1.0f + s * (-1.0f / 6.0f + s * (1.0f / 120.0f + s * (-1.0f / 5040.0f + s * (1.0f / 362880.0f)))));
-    float cosine = 1.0f + s * (-0.5f + s * (1.0f / 24.0f + s * (-1.0f / 720.0f + s * (1.0f / 40320.0f))));
-    float turn_quarter = quarter - 4.0f * floor(quarter * 0.25f);
-    if (turn_quarter < 0.5f) return vec2(cosine, sine);
-    if (turn_quarter < 1.5f) return vec2(-sine, cosine);
-    if (turn_quarter < 2.5f) return vec2(-cosine, -sine);
-    return vec2(sine, -cosine);
-}
-
-// arcsin(y) for y in [0, 1], in quarter turns, to 1e-7.
-SHARED_FUNCTION float arcsine_quarters(float y) {
-    float cosine = sqrt((1.0f - y) * (1.0f + y));
-    if (y <= cosine) return arctan_unit(y / cosine) * (2.0f / kMapPi);
-    return 1.0f - arctan_unit(cosine / y) * (2.0f / kMapPi);
-}
-
 SHARED_FUNCTION float polynomial_kernel(KernelMap map, float x) {
     float high = map.beta_high.x + x * (map.beta_high.y + x * (map.beta_high.z + x * map.beta_high.w));
     return x *
@@ -90,15 +51,15 @@ SHARED_FUNCTION float polynomial_kernel(KernelMap map, float x) {
 
 // K(x) for x in [0, 1]; K(0) = 0, K(1) = 1, rising.
 SHARED_FUNCTION float kernel(KernelMap map, float x) {
-    if (map.kernel == kKernelPower) return x <= 0.0f ? 0.0f : pow(x, map.alpha);
+    if (map.kernel == kKernelPower) return power_of(x, map.alpha);
     if (map.kernel == kKernelPolynomial) return polynomial_kernel(map, x);
     if (map.kernel == kKernelSine) return unit_vector(0.25f * x).y;
-    return (exp(x) - 1.0f) * (1.0f / 1.71828182845905f);
+    return (natural_exp(x) - 1.0f) * (1.0f / 1.71828182845905f);
 }
 
 // K^-1(y) for y in [0, 1].
 SHARED_FUNCTION float inverse_kernel(KernelMap map, float y) {
-    if (map.kernel == kKernelPower) return y <= 0.0f ? 0.0f : pow(y, 1.0f / map.alpha);
+    if (map.kernel == kKernelPower) return power_of(y, 1.0f / map.alpha);
     if (map.kernel == kKernelPolynomial) {
         // A rising polynomial has one root in the bracket; 30 halvings reach the last bit of a float.
         float low = 0.0f;
@@ -113,20 +74,7 @@ SHARED_FUNCTION float inverse_kernel(KernelMap map, float y) {
         return 0.5f * (low + high);
     }
     if (map.kernel == kKernelSine) return arcsine_quarters(clamp(y, 0.0f, 1.0f));
-    return log(1.0f + y * 1.71828182845905f);
-}
-
-// The angle of (x, y) in turns, in [0, 1); 0 for the zero vector.
-SHARED_FUNCTION float turns_of(float x, float y) {
-    float ax = abs(x);
-    float ay = abs(y);
-    float larger = max(ax, ay);
-    if (larger <= 0.0f) return 0.0f;
-    float turns = arctan_unit(min(ax, ay) / larger) * (0.5f / kMapPi);
-    if (ay > ax) turns = 0.25f - turns;
-    if (x < 0.0f) turns = 0.5f - turns;
-    if (y < 0.0f) turns = 1.0f - turns;
-    return turns >= 1.0f ? 0.0f : turns;
+    return natural_log(1.0f + y * 1.71828182845905f);
 }
 
 // Screen position to buffer position (Algorithm 1). r < 1 counts as r = 1. u in [0, w] on screen, v in [0,
@@ -137,9 +85,10 @@ SHARED_FUNCTION vec2 buffer_from_screen(KernelMap map, vec2 position) {
     float squared = max(x * x + y * y, 1.0f);
     float u = 0.0f;
     if (map.kernel == kKernelLinearMar) {
-        u = min(log(1.0f + map.mar_slope * max(sqrt(squared) - map.mar_start, 0.0f)) / map.alpha, 1.0f);
+        u = min(natural_log(1.0f + map.mar_slope * max(sqrt(squared) - map.mar_start, 0.0f)) / map.alpha,
+                1.0f);
     } else {
-        float radial = min(0.5f * log(squared) / map.log_max_radius, 1.0f);
+        float radial = min(0.5f * natural_log(squared) / map.log_max_radius, 1.0f);
         u = map.as_printed == 0u ? kernel(map, radial) : inverse_kernel(map, radial);
     }
     return vec2(u * map.buffer_size.x, turns_of(x, y) * map.buffer_size.y);
@@ -149,9 +98,9 @@ SHARED_FUNCTION vec2 buffer_from_screen(KernelMap map, vec2 position) {
 SHARED_FUNCTION float radius_of_column(KernelMap map, float u) {
     float radial = clamp(u / map.buffer_size.x, 0.0f, 1.0f);
     if (map.kernel == kKernelLinearMar)
-        return map.mar_start + (exp(radial * map.alpha) - 1.0f) / map.mar_slope;
-    return exp(map.log_max_radius *
-               (map.as_printed == 0u ? inverse_kernel(map, radial) : kernel(map, radial)));
+        return map.mar_start + (natural_exp(radial * map.alpha) - 1.0f) / map.mar_slope;
+    return natural_exp(map.log_max_radius *
+                       (map.as_printed == 0u ? inverse_kernel(map, radial) : kernel(map, radial)));
 }
 
 // Buffer position to screen position (Algorithm 2); may lie off the screen.

@@ -85,10 +85,10 @@ SHARED_FUNCTION float spacing_at(float slope, float start, float distance_px) {
 // Rings: the number of the ring (whole numbers are rings) at a distance from the gaze, and back. Neighbouring
 // rings are spacing_at() apart.
 SHARED_FUNCTION float ring_at(float slope, float start, float distance_px) {
-    return log(1.0f + slope * max(distance_px - start, 0.0f)) / slope - 0.5f;
+    return natural_log(1.0f + slope * max(distance_px - start, 0.0f)) / slope - 0.5f;
 }
 SHARED_FUNCTION float radius_of_ring(float slope, float start, float ring) {
-    return start + (exp(slope * (ring + 0.5f)) - 1.0f) / slope;
+    return start + (natural_exp(slope * (ring + 0.5f)) - 1.0f) / slope;
 }
 
 // One axis: screen to buffer, for a position between the screen's edges. Rectangular: with d the distance
@@ -105,7 +105,7 @@ SHARED_FUNCTION float axis_to_buffer(uint kind, GridAxis a, float position) {
     if (kind == kGridRectangular) {
         if (reach > 0.0f) b = image * min(d / reach * ((curve + reach) / (curve + d)), 1.0f);
     } else {
-        b = min(min(d, image * sqrt(sqrt(log(1.0f + d / curve)))), image);
+        b = min(min(d, image * sqrt(sqrt(natural_log(1.0f + d / curve)))), image);
     }
     return a.centre + (low ? -b : b);
 }
@@ -124,7 +124,7 @@ SHARED_FUNCTION float axis_to_screen(uint kind, GridAxis a, float texel) {
         d = share * reach * (curve / (curve + (1.0f - share) * reach));
     } else {
         float fourth = share * share * share * share;
-        d = max(share * image, curve * (exp(fourth) - 1.0f));
+        d = max(share * image, curve * (natural_exp(fourth) - 1.0f));
     }
     return a.gaze + (low ? -d : d);
 }

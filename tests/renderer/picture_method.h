@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <concepts>
 #include <cstring>
 #include <memory>
 
@@ -40,6 +41,12 @@ inline Image smooth_picture(SizePx size) {
 class PictureMethod {
   public:
     PictureMethod(Gpu& gpu, const Image& picture, const std::string& name)
+        : PictureMethod(gpu, picture,
+                        [&](const ShadingSource& source) { return make_method(gpu, name, source); }) {}
+
+    // With any method that `make` builds for a ShadingSource.
+    template <std::invocable<const ShadingSource&> Make>
+    PictureMethod(Gpu& gpu, const Image& picture, Make&& make)
         : gpu_(gpu),
           size_(picture.size),
           source_(gpu, {.format = VK_FORMAT_R8G8B8A8_UNORM,
@@ -53,8 +60,7 @@ class PictureMethod {
           sampler_(make_sampler(gpu, {.filter = VK_FILTER_NEAREST})),
           set_(gpu, {{0, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER}}),
           timer_(gpu, 16),
-          method_(make_method(gpu, name,
-                              {.thing = ShadedThing::picture, .layout = set_.layout(), .constants = {}})) {
+          method_(make({.thing = ShadedThing::picture, .layout = set_.layout(), .constants = {}})) {
         upload(gpu, source_, std::as_bytes(std::span(picture.rgba)));
         set_.set_sampled_image(0, source_.view(), sampler_.get());
     }
