@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <stdexcept>
 
 #include "renderer/eye_dominance.h"
 #include "renderer/frame_stages.h"
+#include "renderer/methods/effort_method.h"
 #include "renderer/methods/full_method.h"
 #include "renderer/methods/grid_method.h"
 #include "renderer/methods/kfr_method.h"
@@ -57,6 +59,12 @@ const GridMethodName* grid_method_called(const std::string& name) {
     return found == kGridMethods.end() ? nullptr : found;
 }
 
+std::optional<SavedEffort> saved_effort(const std::string& name) {
+    if (name == "swafford_occlusion") return SavedEffort::occlusion;
+    if (name == "swafford_steps") return SavedEffort::steps;
+    return std::nullopt;
+}
+
 [[noreturn]] void refuse(const std::string& name) {
     std::string names;
     for (const MethodName& method : method_names()) names += (names.empty() ? "" : ", ") + method.name;
@@ -71,6 +79,8 @@ const std::vector<MethodName>& method_names() {
             {"full", "full resolution, one sample per pixel"},
             {"kfr", "kernel foveated rendering (Meng et al. 2018): a reduced log-polar buffer"},
             {"log_polar", "the classic log-polar map (Antonelli et al. 2015)"},
+            {"swafford_occlusion", "fewer occlusion samples (Swafford et al. 2016, second method)"},
+            {"swafford_steps", "fewer steps along rays (Swafford et al. 2016, fourth method)"},
         };
         for (const GridMethodName& method : kGridMethods) all.push_back({method.name, method.summary});
         return all;
@@ -83,6 +93,8 @@ std::unique_ptr<FoveationMethod> make_method(Gpu& gpu, const std::string& name, 
     if (name == "full") return std::make_unique<FullMethod>(gpu, source, kTargetFormat);
     if (name == "kfr") return std::make_unique<KfrMethod>(gpu, source, formats);
     if (name == "log_polar") return std::make_unique<LogPolarMethod>(gpu, source, formats);
+    if (const std::optional<SavedEffort> saved = saved_effort(name))
+        return std::make_unique<EffortMethod>(gpu, source, kTargetFormat, *saved);
     if (const GridMethodName* method = grid_method_called(name)) {
         return std::make_unique<GridMethod>(
             gpu, source, GridFormats{.target = kTargetFormat, .samples = reduced_format(gpu)},
@@ -97,6 +109,7 @@ void check(const RenderMethod& wanted) {
     if (method.name == "full") return MethodParameters(method).check_all_taken();
     if (method.name == "kfr") return static_cast<void>(kfr_setting(method));
     if (method.name == "log_polar") return static_cast<void>(log_polar_setting(method));
+    if (saved_effort(method.name)) return static_cast<void>(effort_falloff(method));
     const GridMethodName* on_grid = grid_method_called(method.name);
     if (on_grid == nullptr) refuse(method.name);
     MethodParameters parameters(method);

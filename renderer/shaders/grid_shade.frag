@@ -30,6 +30,8 @@ void main() {
         int layer = max(layer_of_texel(texel), 0);
         position = layer_to_screen(grid.layers[layer], texel + jitter);
         spacing = vec2(grid.layers[layer].step_px);
+        // Where finer samples are to be had, the coarsest ones must see what those would show.
+        if (grid.detail > 0.0 && layer > 0 && layer_of_tile_at(position) < layer) spacing *= 0.5;
     }
     color = vec4(shade_sample(clamp(position, vec2(0.5), grid.screen_size - 0.5), spacing), 1.0);
 }

@@ -9,12 +9,19 @@
 layout(constant_id = kConstFootprint) const uint kUseFootprint = 1u;
 layout(constant_id = kConstSamples) const uint kSamples = 1u;
 
+// What share of its loops shade_sample() may spend: on occlusion, on steps along rays. A method that spends less on
+// some samples sets them before.
+float occlusion_effort = 1.0;
+float step_effort = 1.0;
+
 // Sphere tracing (Hart 1996) from span.x to span.y; negative when nothing is met. Four steps a turn, because loops cost
 // more than their bodies on some devices.
 float trace_solids(vec3 from, vec3 direction, vec2 span, float cone) {
     float t = span.x;
     float found = -1.0;
-    for (int turn = 0; turn < 20 && found < 0.0 && t < span.y; ++turn) {
+    // With fewer steps a ray is let off a little farther from the solid.
+    cone /= step_effort;
+    for (int turn = 0; turn < int(ceil(20.0 * step_effort)) && found < 0.0 && t < span.y; ++turn) {
         float d0 = field(from + t * direction);
         found = d0 < cone * t ? t : found;
         t += d0;
@@ -34,13 +41,14 @@ float sun_past_solids(vec3 from, vec3 to_sun) {
     vec2 span = solids_span(from, to_sun, 0.1);
     float share = 1.0;
     float t = max(span.x, 0.02);
-    for (int turn = 0; turn < 12 && share > -1.0 && t < span.y; ++turn) {
+    vec2 step_m = vec2(0.015, 0.6) / step_effort;
+    for (int turn = 0; turn < int(ceil(12.0 * step_effort)) && share > -1.0 && t < span.y; ++turn) {
         float d0 = field(from + t * to_sun);
         share = min(share, d0 / (kSunTangent * t));
-        t += clamp(d0, 0.015, 0.6);
+        t += clamp(d0, step_m.x, step_m.y);
         float d1 = field(from + t * to_sun);
         share = min(share, d1 / (kSunTangent * t));
-        t += clamp(d1, 0.015, 0.6);
+        t += clamp(d1, step_m.x, step_m.y);
     }
     share = clamp(share, -1.0, 1.0);
     return 0.25 * (1.0 + share) * (1.0 + share) * (2.0 - share);
@@ -53,13 +61,15 @@ float court_distance(vec3 p) {
 // Share of the hemisphere that is open (after Evans 2006): distances to the nearest surface at four heights.
 float openness(vec3 point, vec3 normal) {
     float blocked = 0.0;
-    float weight = 1.0;
-    for (int i = 1; i <= 4; ++i) {
+    // All four heights, every other one, or the highest alone.
+    int stride = occlusion_effort > 0.7 ? 1 : occlusion_effort > 0.35 ? 2 : 4;
+    float weight = stride == 1 ? 1.0 : stride == 2 ? 2.0 * 0.6 : 4.0 * 0.216;
+    for (int i = stride; i <= 4; i += stride) {
         float height = 0.06 * float(i * i);
         vec3 p = point + height * normal;
         float d = min(field(p), court_distance(p));
         blocked += weight * max(height - d, 0.0);
-        weight *= 0.6;
+        weight *= stride == 1 ? 0.6 : 0.36;
     }
     return clamp(1.0 - 1.1 * blocked, 0.0, 1.0);
 }

@@ -8,7 +8,9 @@
 #include <cmath>
 #include <set>
 
+#include "renderer/frame_renderer.h"
 #include "renderer/methods/method_settings.h"
+#include "renderer/scene_catalog.h"
 #include "tests/renderer/picture_method.h"
 
 namespace parafovea {
@@ -32,7 +34,10 @@ class EveryMethod : public testing::TestWithParam<std::string> {
         if (method.name == "f3d") method.numbers["mar_slope"] = 0.15;
         return method;
     }
-    bool foveates() const { return GetParam() != "full"; }
+    // Full resolution does not, and a picture has no loops to shorten.
+    bool foveates() const {
+        return GetParam() != "full" && GetParam() != "swafford_occlusion" && GetParam() != "swafford_steps";
+    }
 
     Gpu& gpu_ = *gpu_owner_;
 
@@ -93,7 +98,7 @@ TEST_P(EveryMethod, LeavesASmoothPictureAsItIs) {
 }
 
 TEST_P(EveryMethod, KeepsDetailAtTheGazeAndFollowsIt) {
-    if (!foveates()) GTEST_SKIP() << "full resolution has no gaze";
+    if (!foveates()) GTEST_SKIP() << "full resolution of a picture has no gaze";
     const SizePx size{320, 180};
     const Image picture = noise_picture(size);
     PictureMethod full(gpu_, picture, "full");
@@ -199,6 +204,26 @@ TEST_P(EveryMethod, TellsASpacingThatIsFinestAtTheGaze) {
     if (foveates()) {
         EXPECT_GT(there.radial_px * there.tangential_px, 1.2 * here.radial_px * here.tangential_px);
     }
+}
+
+TEST(EffortMethods, SpendLessFarFromTheGazeAndAllAtIt) {
+    Gpu gpu({.validation = true});
+    const Scene scene = load_scene("primitives");
+    FrameRenderer renderer(gpu, scene);
+    const SizePx size{160, 90};
+    const CameraView view = view_through(scene.cameras[0], size);
+    for (const PointPx gaze : {PointPx{60, 60}, PointPx{130, 70}}) {
+        const Image full = renderer.render(size, view, {}, gaze).image;
+        for (const char* name : {"swafford_occlusion", "swafford_steps"}) {
+            SCOPED_TRACE(name);
+            const RenderedFrame frame = renderer.render(size, view, {name, {}, {}}, gaze);
+            EXPECT_EQ(frame.statistics.shaded_samples, 160U * 90U);
+            EXPECT_EQ(difference(full, frame.image, gaze, 0, 0.04 * 160).most, 0);
+            EXPECT_GT(difference(full, frame.image, gaze, 60, 1e9).mean, 0.02);
+            EXPECT_LT(difference(full, frame.image, gaze, 60, 1e9).mean, 8);
+        }
+    }
+    EXPECT_TRUE(gpu.validation_messages().empty()) << gpu.validation_messages().front();
 }
 
 TEST(MethodList, SettingsForComparisonsAreValidAndCoverEveryMethod) {
