@@ -96,31 +96,61 @@ void write_table_2(const std::filesystem::path& out, const BenchmarkRow& full, c
 }
 
 void write_table_3(const std::filesystem::path& out, const std::vector<BenchmarkRow>& rows,
-                   const std::string& device) {
+                   const std::string& device, const std::string& conditions) {
     std::string csv =
         "scene,width,height,method,setting,frame_ms,frame_ms_low,frame_ms_high,shading_ms,shaded_samples,"
-        "speedup\n";
+        "speedup,device_memory_bytes\n";
     std::string markdown =
-        "# Table 3. Frame time and speed-up\n\n" + device +
-        ". Medians over rounds in which all methods took turns, with quartiles; frames are not read back.\n\n"
-        "| scene | size | method | frame, ms | shading, ms | samples / pixels | speed-up "
-        "|\n|---|---|---|---|---|---|---|\n";
+        "# Table 3. Frame time and speed-up\n\n" + device + ". " + conditions +
+        " Medians over rounds in which all methods took turns, with quartiles; frames are not read back. "
+        "Memory is "
+        "the device's with all methods of a size resident.\n\n"
+        "| scene | size | method | frame, ms | shading, ms | samples / pixels | memory, MiB | speed-up "
+        "|\n|---|---|---|---|---|---|---|---|\n";
     for (const BenchmarkRow& row : rows) {
         const std::string size = std::to_string(row.size.width) + "," + std::to_string(row.size.height);
         csv += row.scene + "," + size + "," + row.method.label + "," + setting_text(row.method.method) + "," +
                fixed(row.frame_ms, 3) + "," + fixed(row.frame_ms_low, 3) + "," + fixed(row.frame_ms_high, 3) +
                "," + fixed(row.shading_ms, 3) + "," + std::to_string(row.shaded_samples) + "," +
-               fixed(row.speedup, 3) + "\n";
+               fixed(row.speedup, 3) + "," + std::to_string(row.device_memory_bytes) + "\n";
         const double pixels = static_cast<double>(row.size.width) * row.size.height;
         markdown += "| " + row.scene + " | " + std::to_string(row.size.width) + " x " +
                     std::to_string(row.size.height) + " | " + row.method.label + " | " +
                     fixed(row.frame_ms, 1) + " (" + fixed(row.frame_ms_low, 1) + " to " +
                     fixed(row.frame_ms_high, 1) + ") | " + fixed(row.shading_ms, 1) + " | " +
                     fixed(static_cast<double>(row.shaded_samples) / pixels, 4) + " | " +
+                    fixed(static_cast<double>(row.device_memory_bytes) / (1 << 20), 0) + " | " +
                     fixed(row.speedup, 2) + " |\n";
     }
     write_text_file(out / "table3.csv", csv);
     write_text_file(out / "table3.md", markdown);
+}
+
+std::string joined_names(const std::vector<FeatureNote>& notes, const char* separator) {
+    std::string text;
+    for (const FeatureNote& note : notes) text += (text.empty() ? "" : separator) + note.name;
+    return text;
+}
+
+void write_needs(const std::filesystem::path& out, const std::vector<NeedsRow>& rows,
+                 const std::string& device) {
+    std::string csv = "scene,width,height,forced_ms,needed_ms,still_ms,left_out\n";
+    std::string markdown = "# Everything built against only what a scene needs\n\nFull resolution; " +
+                           device +
+                           ". Still: neither the scene nor the view changes from frame to frame.\n\n"
+                           "| scene | size | everything, ms | what it needs, ms | still, ms | left out "
+                           "|\n|---|---|---|---|---|---|\n";
+    for (const NeedsRow& row : rows) {
+        csv += row.scene + "," + std::to_string(row.size.width) + "," + std::to_string(row.size.height) +
+               "," + fixed(row.forced_ms, 3) + "," + fixed(row.needed_ms, 3) + "," + fixed(row.still_ms, 3) +
+               "," + joined_names(row.left_out, "; ") + "\n";
+        markdown += "| " + row.scene + " | " + std::to_string(row.size.width) + " x " +
+                    std::to_string(row.size.height) + " | " + fixed(row.forced_ms, 1) + " | " +
+                    fixed(row.needed_ms, 1) + " | " + fixed(row.still_ms, 1) + " | " +
+                    joined_names(row.left_out, ", ") + " |\n";
+    }
+    write_text_file(out / "needs.csv", csv);
+    write_text_file(out / "needs.md", markdown);
 }
 
 // One group of bars for each scene and size, one bar for each method.
@@ -166,6 +196,12 @@ BenchCommand::BenchCommand(CLI::App& program) {
         ->capture_default_str()
         ->check(CLI::PositiveNumber);
     command->add_flag("--moving-gaze", moving_gaze_, "Move the gaze before every frame");
+    command->add_flag("--still", still_,
+                      "Keep the geometry of the view, which stays as it is; else it is drawn anew");
+    command->add_option("--samples", samples_, "Ray-marched scenes: rays for each sample (the paper's: 16)")
+        ->capture_default_str()
+        ->check(CLI::Range(1, 64));
+    command->add_flag("--no-needs", no_needs_, "Without the table of what leaving things out saves");
     command->add_option("--out", out_, "Folder for the results")->required();
     command->add_flag("--quiet", quiet_, "No progress");
     command->callback([this] { run(); });
@@ -187,6 +223,8 @@ void BenchCommand::run() const {
     if (methods_.empty()) plan.methods = all;
     plan.rounds = rounds_;
     plan.moving_gaze = moving_gaze_;
+    plan.options.keep_geometry = still_;
+    plan.options.samples_per_sample = static_cast<std::uint32_t>(samples_);
     make_output_folder(out_);
 
     Gpu gpu;
@@ -201,12 +239,24 @@ void BenchCommand::run() const {
     const auto published =
         std::ranges::find_if(rows, [](const BenchmarkRow& row) { return row.method.label == "KFR"; });
     write_table_2(out_, rows.front(), published == rows.end() ? rows.at(1) : *published, machine(gpu));
-    write_table_3(out_, rows, machine(gpu));
+    write_table_3(
+        out_, rows, machine(gpu),
+        std::string(still_ ? "The view is still: its geometry is kept." : "Every frame draws its geometry.") +
+            (samples_ > 1 ? " Ray-marched scenes: " + std::to_string(samples_) + " rays a sample." : ""));
     draw_table_3(out_, rows, plan.methods.size() + 1, machine(gpu));
     for (const BenchmarkRow& row : rows)
         std::printf("%-12s %4d x %-4d  %-28s %9.1f ms  %6.2fx\n",
                     std::filesystem::path(row.scene).stem().c_str(), row.size.width, row.size.height,
                     row.method.label.c_str(), row.frame_ms, row.speedup);
+    if (!no_needs_) {
+        Progress progress("needs", 1000, quiet_);
+        write_needs(out_,
+                    measure_needs(gpu, plan,
+                                  [&](double share, const std::string& next) {
+                                      progress.update(static_cast<int>(std::lround(share * 1000)), next);
+                                  }),
+                    machine(gpu));
+    }
     std::printf("\n%s\n", (std::filesystem::path(out_) / "table3.md").c_str());
 }
 

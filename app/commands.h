@@ -202,7 +202,10 @@ class BenchCommand {
     std::vector<std::string> methods_;
     std::string out_;
     int rounds_ = 5;
+    int samples_ = 1;
     bool moving_gaze_ = false;
+    bool still_ = false;
+    bool no_needs_ = false;
     bool quiet_ = false;
 };
 

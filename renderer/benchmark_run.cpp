@@ -40,7 +40,7 @@ BenchmarkRow row_of(const Measured& measured) {
     row.frame_ms_high = quantile(measured.frame_ms, 0.75);
     const FrameStatistics& last = measured.frames.back();
     row.shaded_samples = last.shaded_samples;
-    row.peak_device_memory_bytes = last.peak_device_memory_bytes;
+    row.device_memory_bytes = last.device_memory_bytes;
     for (const PassTimer::Pass& pass : last.passes) {
         std::vector<double> times;
         for (const FrameStatistics& frame : measured.frames) times.push_back(frame.pass_ms(pass.name));
@@ -116,6 +116,46 @@ std::vector<BenchmarkRow> run_benchmark(Gpu& gpu, const BenchmarkPlan& plan,
                 rows.back().speedup = rows[first].frame_ms / row.frame_ms;
             }
         }
+    }
+    if (progress) progress(1, "done");
+    return rows;
+}
+
+std::vector<NeedsRow> measure_needs(Gpu& gpu, const BenchmarkPlan& plan,
+                                    const std::function<void(double, const std::string&)>& progress) {
+    using Clock = std::chrono::steady_clock;
+    assert(plan.warm_up_rounds >= 1 && plan.rounds >= 1 && !plan.sizes.empty());
+    std::vector<NeedsRow> rows;
+    for (const std::string& scene_name : plan.scenes) {
+        const Scene scene = load_scene(scene_name);
+        ScenePassOptions forced = plan.options, needed = plan.options, still = plan.options;
+        forced.force_everything = true;
+        forced.keep_geometry = needed.keep_geometry = false;
+        still.keep_geometry = true;
+        // One after the other, so that only one is resident; medians of as many frames each.
+        NeedsRow row{scene_name, plan.sizes.front(), 0, 0, 0, {}};
+        const CameraView view = view_through(scene.cameras.front(), row.size);
+        const auto median_ms = [&](const ScenePassOptions& options, const char* what) {
+            if (progress) {
+                progress(static_cast<double>(rows.size()) / static_cast<double>(plan.scenes.size()),
+                         scene_name + ", " + what);
+            }
+            FrameRenderer renderer(gpu, scene, options);
+            std::vector<double> frame_ms;
+            for (int round = 0; round < plan.warm_up_rounds + plan.rounds; ++round) {
+                const Clock::time_point start = Clock::now();
+                const RenderedFrame frame =
+                    renderer.render(row.size, view, RenderMethod{}, centre_of(row.size), false);
+                const double ms = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+                if (round >= plan.warm_up_rounds) frame_ms.push_back(ms);
+                row.left_out = frame.statistics.left_out;
+            }
+            return quantile(frame_ms, 0.5);
+        };
+        row.forced_ms = median_ms(forced, "everything built");
+        row.needed_ms = median_ms(needed, "what it needs");
+        row.still_ms = median_ms(still, "what it needs, still");
+        rows.push_back(row);
     }
     if (progress) progress(1, "done");
     return rows;

@@ -31,4 +31,7 @@ struct FrameStatistics {
     double pass_ms(const std::string& name) const;
 };
 
+// The most memory that this process has had resident, bytes.
+std::uint64_t peak_host_memory_bytes();
+
 }  // namespace parafovea

@@ -21,6 +21,8 @@ namespace {
 const ResourceUse kUseUniform{VK_PIPELINE_STAGE_2_ALL_GRAPHICS_BIT | VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
                               VK_ACCESS_2_UNIFORM_READ_BIT, VK_IMAGE_LAYOUT_UNDEFINED};
 
+constexpr const char* kKept = "drawing geometry again";
+
 // The exposure that shows a grey surface near the eye as grey, as a camera left to itself would choose.
 float exposure_at(const IrradianceVolume& volume, glm::vec3 eye, const std::vector<PunctualLight>& lamps) {
     constexpr float kReach_m = 3, kKey = 0.4f;
@@ -68,6 +70,7 @@ struct ScenePasses::Parts {
     std::optional<SunShadow> shadow;
     std::optional<LampShadows> lamp_shadows;
     bool shadow_drawn = false;
+    std::optional<shared::Camera> drawn;  // the view that the targets hold
     SizePx size;
     glm::mat4 clip_from_world{1};
     shared::Camera camera{};
@@ -292,6 +295,7 @@ void ScenePasses::Parts::make_targets() {
     };
     // Release the old ones first: both sizes together may not fit.
     for (GpuImage* image : {&gbuffer, &depth, &blended, &blended_depth}) *image = GpuImage();
+    drawn.reset();
     gbuffer = color(resources->gbuffer_format());
     depth = depth_target();
     if (build_blended) {
@@ -413,10 +417,16 @@ void ScenePasses::record(VkCommandBuffer commands, PassTimer* timer) {
         if (timer) timer->stop(commands);
         p.shadow_drawn = true;
     }
+    std::erase_if(p.left_out, [](const FeatureNote& note) { return note.name == kKept; });
+    if (p.options.keep_geometry && p.drawn && std::memcmp(&*p.drawn, &p.camera, sizeof p.camera) == 0) {
+        p.left_out.push_back({kKept, "the view is that of the last frame"});
+        return;
+    }
     if (timer) timer->start(commands, "defer");
     p.record_layer(commands, false);
     if (p.build_blended) p.record_layer(commands, true);
     if (timer) timer->stop(commands);
+    p.drawn = p.camera;
 }
 
 VkDescriptorSetLayout ScenePasses::shading_set_layout() const {

@@ -36,6 +36,8 @@ struct ScenePassOptions {
     // each pixel. When absent: on software devices, which pay for every lookup and have no anisotropic ones
     // to lose.
     std::optional<bool> late_textures;
+    // While the view stays as it is, geometry is not drawn again.
+    bool keep_geometry = true;
     std::uint32_t samples_per_sample = 1;  // ray-marched: rays for each shade_sample()
 };
 
@@ -54,8 +56,8 @@ class ScenePasses {
     void set_view(SizePx size, const CameraView& view);
 
     // Records every pass the scene needs, each between timer->start(name) and timer->stop(): "shadow" (only
-    // when something changed), "depth", "defer". Leaves everything ready to be sampled by fragment and
-    // compute shaders.
+    // when something changed), "depth", "defer" (not if the targets hold this view already). Leaves
+    // everything ready to be sampled by fragment and compute shaders.
     void record(VkCommandBuffer commands, PassTimer* timer);
 
     // For pipelines that include shading.glsl: compile it with SCENE_PRIMITIVES if ray_marched(), else
@@ -70,8 +72,8 @@ class ScenePasses {
     const GpuImage* depth() const;
 
     const std::vector<FeatureNote>& built() const;
-    const std::vector<FeatureNote>& left_out() const;
-    std::uint64_t triangles_in_view() const;  // of the last record()
+    const std::vector<FeatureNote>& left_out() const;  // the last record()'s, too
+    std::uint64_t triangles_in_view() const;           // of the last record()
 
   private:
     struct Parts;

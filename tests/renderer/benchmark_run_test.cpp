@@ -30,11 +30,27 @@ TEST(BenchmarkRun, MeasuresEveryMethodAtEverySizeAgainstFullResolution) {
         EXPECT_GT(row.frame_ms, 0);
         EXPECT_LE(row.frame_ms_low, row.frame_ms);
         EXPECT_GE(row.frame_ms_high, row.frame_ms);
+        EXPECT_GT(row.device_memory_bytes, 0u);
         EXPECT_DOUBLE_EQ(row.speedup, full.frame_ms / row.frame_ms);
         if (&row != &full) {
             EXPECT_LT(row.shaded_samples, full.shaded_samples);
         }
     }
+    EXPECT_TRUE(gpu.validation_messages().empty());
+}
+
+TEST(BenchmarkRun, MeasuresWhatLeavingOutSaves) {
+    Gpu gpu({.validation = true});
+    BenchmarkPlan plan;
+    plan.scenes = {"primitives"};
+    plan.sizes = {{64, 36}};
+    plan.rounds = 2;
+    const std::vector<NeedsRow> rows = measure_needs(gpu, plan, {});
+    ASSERT_EQ(rows.size(), 1u);
+    EXPECT_GT(rows[0].forced_ms, 0);
+    EXPECT_GT(rows[0].needed_ms, 0);
+    EXPECT_GT(rows[0].still_ms, 0);
+    EXPECT_FALSE(rows[0].left_out.empty());
     EXPECT_TRUE(gpu.validation_messages().empty());
 }
 

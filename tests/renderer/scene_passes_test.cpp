@@ -245,6 +245,33 @@ TEST(Passes, DrawOnlyInstancesThatMayBeSeen) {
     EXPECT_EQ(passes.triangles_in_view(), 2u);
 }
 
+TEST(Passes, DrawTheGeometryOfAStillViewOnceAndOfAnotherAnew) {
+    Gpu gpu({.validation = true});
+    Scene scene = dark_scene();
+    add_square(scene, add_material(scene, {0.8f, 0.4f, 0.2f}, 0, 0.6f), moved(0.2f, -0.1f, 0, 0.7f));
+    FrameRenderer renderer(gpu, scene);
+    const SizePx size{80, 60}, other_size{60, 80};
+    const CameraView view = view_through(scene.cameras[0], size);
+    CameraView moved_view = view;
+    moved_view.world_from_eye[3].x += 0.3f;
+    const auto frame = [&](SizePx s, const CameraView& v) { return renderer.render(s, v, {}, centre_of(s)); };
+    const auto fresh = [&](SizePx s, const CameraView& v) {
+        return FrameRenderer(gpu, scene).render(s, v, {}, centre_of(s)).image;
+    };
+    EXPECT_GT(frame(size, view).statistics.pass_ms("defer"), 0);
+    const RenderedFrame again = frame(size, view);
+    EXPECT_EQ(again.statistics.pass_ms("defer"), 0);
+    EXPECT_TRUE(again.image == fresh(size, view));
+    EXPECT_TRUE(frame(size, moved_view).image == fresh(size, moved_view));
+    EXPECT_TRUE(frame(other_size, moved_view).image == fresh(other_size, moved_view));
+    EXPECT_TRUE(frame(size, view).image == fresh(size, view));
+
+    FrameRenderer forgetful(gpu, scene, {.keep_geometry = false});
+    forgetful.render(size, view, {}, centre_of(size));
+    EXPECT_GT(forgetful.render(size, view, {}, centre_of(size)).statistics.pass_ms("defer"), 0);
+    EXPECT_TRUE(gpu.validation_messages().empty());
+}
+
 TEST(CameraBlock, SendsEveryPixelsRayThroughThatPixel) {
     CameraView view;
     view.world_from_eye = camera_looking({1, 2, 3}, {-4, 1, 0}, 1).world_from_camera;
