@@ -42,6 +42,7 @@ nlohmann::ordered_json statistics_json(const FrameStatistics& statistics) {
     json["driver"] = statistics.driver;
     json["device_memory_bytes"] = statistics.device_memory_bytes;
     json["peak_device_memory_bytes"] = statistics.peak_device_memory_bytes;
+    json["peak_host_memory_bytes"] = peak_host_memory_bytes();
     json["built"] = notes_json(statistics.built);
     json["left_out"] = notes_json(statistics.left_out);
     return json;
@@ -195,6 +196,7 @@ void RenderCommand::render_frames(FrameRenderer& renderer, const Scene& scene) c
             RenderedFrame frame = frames_ > 0 ? moving[v].render(size, view, own_method, gaze)
                                               : renderer.render(size, view, own_method, gaze);
             statistics.push_back(statistics_json(frame.statistics));
+            statistics.back()["scene_load_s"] = scene.load_s;
             pictures.push_back(std::move(frame.image));
         }
         char number[16] = "";

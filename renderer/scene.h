@@ -157,6 +157,7 @@ struct Scene {
     std::vector<SceneCamera> cameras;   // never empty after load_scene
     std::vector<CameraKey> path;        // empty, or at least two keys in rising time
     float exposure = 1;                 // multiplies radiance before the tone curve
+    double load_s = 0;                  // how long load_scene took
     std::vector<std::string> warnings;  // what the file asks for and the renderer does not model
 };
 

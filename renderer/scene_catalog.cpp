@@ -1,6 +1,7 @@
 // Finds a scene by its name or its file.
 #include "renderer/scene_catalog.h"
 
+#include <chrono>
 #include <filesystem>
 #include <stdexcept>
 
@@ -11,7 +12,9 @@
 
 namespace parafovea {
 
-Scene load_scene(const std::string& name_or_path) {
+namespace {
+
+Scene made_or_read(const std::string& name_or_path) {
     if (name_or_path == "atrium") return make_atrium_scene();
     if (name_or_path == "primitives") return make_primitives_scene();
     if (name_or_path == "street") return make_street_scene();
@@ -19,6 +22,16 @@ Scene load_scene(const std::string& name_or_path) {
     if (ending == ".gltf" || ending == ".glb") return load_gltf(name_or_path);
     throw std::runtime_error("there is no scene '" + name_or_path +
                              "'; expected primitives, atrium, street, or a .gltf or .glb file");
+}
+
+}  // namespace
+
+Scene load_scene(const std::string& name_or_path) {
+    using Clock = std::chrono::steady_clock;
+    const Clock::time_point start = Clock::now();
+    Scene scene = made_or_read(name_or_path);
+    scene.load_s = std::chrono::duration<double>(Clock::now() - start).count();
+    return scene;
 }
 
 SceneSummary summarise(const Scene& scene) {

@@ -79,6 +79,24 @@ TEST(Gpu, RefusesAnImageLargerThanTheDeviceAllows) {
     EXPECT_TRUE(gpu.validation_messages().empty());
 }
 
+TEST(Gpu, SaysInOneLineThatMemoryIsFullAndStaysUsable) {
+    Gpu gpu;
+    const std::string message = message_of([&] {
+        GpuBuffer(gpu, VkDeviceSize{1} << 50, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, BufferPlace::device);
+    });
+    EXPECT_NE(message.find("memory is full"), std::string::npos) << message;
+    EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+    EXPECT_TRUE(GpuBuffer(gpu, 1 << 10, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, BufferPlace::device));
+}
+
+TEST(Gpu, SaysInOneLineWhatALostDeviceMeans) {
+    const std::string message =
+        message_of([] { check_vulkan(VK_ERROR_DEVICE_LOST, "waiting for the device"); });
+    EXPECT_NE(message.find("waiting for the device"), std::string::npos) << message;
+    EXPECT_NE(message.find("start again"), std::string::npos) << message;
+    EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+}
+
 TEST(Gpu, CountsMemoryUntilItIsReleased) {
     Gpu gpu;
     const VkDeviceSize before = gpu.allocated_bytes();
