@@ -8,16 +8,11 @@
 #include "study/protocol.h"
 #include "study/trial_plan.h"
 #include "study/trial_runner.h"
+#include "study/word_list.h"
 
 namespace parafovea {
 
 namespace {
-
-std::string joined(const std::vector<std::string>& words) {
-    std::string text;
-    for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
-    return text;
-}
 
 void print_duration(const char* what, double seconds, double refresh_hz) {
     const int frames = frames_from_seconds(seconds, refresh_hz);
@@ -48,6 +43,8 @@ void CheckCommand::run() const {
     print_duration("gap", protocol.timing.gap_s, protocol.display.refresh_hz);
     std::printf("%-22s %zu (%s)\n", "conditions", protocol.conditions.size(),
                 joined(protocol.factors).c_str());
+    if (protocol.design.participants > 0)
+        std::printf("%-22s %d\n", "participants planned", protocol.design.participants);
     std::printf("%-22s %d\n", "training trials", protocol.design.training_trials);
     std::printf("%-22s %d, each of %d condition and %d validation trials\n", "testing sessions",
                 protocol.design.sessions, protocol.conditions_per_session(),

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdio>
 #include <map>
+#include <set>
 #include <stdexcept>
 
 #include "analysis/bids.h"
@@ -10,6 +11,7 @@
 #include "analysis/long_csv.h"
 #include "app/commands.h"
 #include "app/session_responses.h"
+#include "study/session_log_reader.h"
 
 namespace parafovea {
 
@@ -74,7 +76,7 @@ class GazeRecordings {
         add_eye(eyes_[2], time_s, sample.direction, std::nullopt);
     }
 
-    std::vector<BidsGaze> finish(const std::vector<CalibrationRecord>& calibrations) {
+    std::vector<BidsGaze> finish(const CalibrationRecord* calibration) {
         std::vector<BidsGaze> recordings;
         for (BidsGaze& eye : eyes_) {
             if (eye.samples.size() < 2) continue;
@@ -88,9 +90,9 @@ class GazeRecordings {
                              steps.end());
             const double step_s = steps[steps.size() / 2];
             eye.sampling_hz = step_s > 0 ? 1 / step_s : static_cast<double>(eye.samples.size() - 1) / span_s;
-            if (!calibrations.empty()) {
-                eye.average_calibration_error_deg = calibrations.back().mean_accuracy_deg;
-                eye.maximal_calibration_error_deg = calibrations.back().worst_accuracy_deg;
+            if (calibration) {
+                eye.average_calibration_error_deg = calibration->mean_accuracy_deg;
+                eye.maximal_calibration_error_deg = calibration->worst_accuracy_deg;
             }
             recordings.push_back(std::move(eye));
         }
@@ -119,7 +121,6 @@ class GazeRecordings {
 BidsRun run_of(const SessionRows& session, const fs::path& file, int testing_session) {
     BidsRun run;
     run.participant = session.facts.participant;
-    run.run = testing_session;
     run.event_columns = kEventColumns;
     const Protocol protocol = parse_protocol(session.protocol_text, session.protocol_file);
     run.screen_refresh_hz = session.facts.refresh_hz;
@@ -142,22 +143,22 @@ BidsRun run_of(const SessionRows& session, const fs::path& file, int testing_ses
         for (const GazeSample& sample : read_gaze(file, trial.planned.number, trial.attempt))
             gaze->add(sample);
     }
-    if (gaze) run.gaze = gaze->finish(session.calibrations);
+    if (gaze) run.gaze = gaze->finish(session.last_calibration());
     return run;
 }
 
 // The questionnaires that anybody answered, each with every item that was answered.
-std::vector<BidsQuestionnaire> questionnaires_of(const std::vector<SessionRows>& sessions) {
+std::vector<BidsQuestionnaire> questionnaires_of(const std::vector<ListedSession>& sessions) {
     std::map<std::string, BidsQuestionnaire> by_name;
-    for (const SessionRows& session : sessions) {
-        for (const auto& [name, answers] : session.questionnaires) {
+    for (const auto& [file, head] : sessions) {
+        for (const auto& [name, answers] : head.questionnaires) {
             BidsQuestionnaire& questionnaire = by_name[name];
             if (questionnaire.items.empty()) {
                 questionnaire.name = bids_label(name);
                 questionnaire.description = "Questionnaire " + name;
                 for (const auto& [item, answer] : answers) questionnaire.items.push_back({item, item, ""});
             }
-            BidsParticipant row{session.facts.participant, {}};
+            BidsParticipant row{head.facts.participant, {}};
             for (const BidsColumn& item : questionnaire.items) {
                 const auto answer = answers.find(item.name);
                 row.values.push_back(answer == answers.end() ? "n/a" : answer->second);
@@ -170,26 +171,36 @@ std::vector<BidsQuestionnaire> questionnaires_of(const std::vector<SessionRows>&
     return list;
 }
 
+// One session's rows are in memory at a time.
 void export_bids(const std::vector<std::string>& inputs, const fs::path& out) {
-    std::vector<fs::path> files = input_files(inputs);
-    std::vector<SessionRows> sessions;  // rows only; gaze is read run by run
-    for (const fs::path& file : files) sessions.push_back(read_session(file));
+    const SessionList list = list_sessions(input_files(inputs));
+    for (const std::string& problem : list.problems) std::fprintf(stderr, "parafovea: %s\n", problem.c_str());
+    if (list.sessions.empty())
+        throw std::runtime_error("no session with an answer in the input; nothing to export");
 
     BidsDataset dataset;
-    dataset.name = sessions.front().protocol_name;
+    dataset.name = list.sessions.front().head.protocol_name;
     dataset.software_version = PARAFOVEA_VERSION;
-    for (const SessionRows& session : sessions) {
-        if (session.facts.simulated_people) dataset.data_origin = "simulated participants";
-        dataset.participants.push_back({session.facts.participant, {}});
+    std::set<std::string> people;
+    for (const auto& [file, head] : list.sessions) {
+        if (head.facts.simulated_people) dataset.data_origin = "simulated participants";
+        if (people.insert(head.facts.participant).second)
+            dataset.participants.push_back({head.facts.participant, {}});
     }
-    dataset.questionnaires = questionnaires_of(sessions);
+    dataset.questionnaires = questionnaires_of(list.sessions);
 
     BidsWriter writer(out, dataset);
-    for (std::size_t i = 0; i < sessions.size(); ++i) {
-        int last = 0;
-        for (const TrialRow& trial : sessions[i].trials) last = std::max(last, trial.planned.session);
-        for (int testing_session = 1; testing_session <= last; ++testing_session)
-            writer.write(run_of(sessions[i], files[i], testing_session));
+    std::map<std::string, int> runs;  // written of each participant: several files of one go on counting
+    for (const auto& [file, head] : list.sessions) {
+        const SessionRows session = read_session(file);
+        std::set<int> testing_sessions;
+        for (const TrialRow& trial : session.trials)
+            if (trial.planned.session > 0) testing_sessions.insert(trial.planned.session);
+        for (const int testing_session : testing_sessions) {
+            BidsRun run = run_of(session, file, testing_session);
+            run.run = ++runs[run.participant];
+            writer.write(run);
+        }
     }
     const std::vector<BidsViolation> violations = check_bids(out);
     for (const BidsViolation& violation : violations)

@@ -90,11 +90,13 @@ class AnalyzeCommand {
 
     std::vector<std::string> inputs_;
     std::string out_;
+    bool overdispersion_ = false;
 };
 
 // What `analyze` does, and `simulate` at its end: writes the results into `out`, prints Table 1 and where the
 // files are.
-void analyze_and_print(const std::vector<std::string>& inputs, const std::string& out);
+void analyze_and_print(const std::vector<std::string>& inputs, const std::string& out,
+                       bool overdispersion = false);
 
 // The options that say how a picture is foveated, common to several commands.
 struct FoveationOptions {

@@ -6,11 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "analysis/inventory.h"
 #include "analysis/recordings.h"
 #include "analysis/responses.h"
 #include "analysis/study_description.h"
-#include "study/session_log_reader.h"
+#include "study/session_survey.h"
 
 namespace parafovea {
 
@@ -18,12 +17,17 @@ namespace parafovea {
 // std::runtime_error with one line where an input is missing or a folder holds no session.
 std::vector<std::filesystem::path> input_files(const std::vector<std::string>& inputs);
 
-// What identifies a session among many.
-SessionStamp stamp_of(const SessionRows& session, const std::filesystem::path& file);
-
-// A response for every testing trial that was not broken off or started over; a trial that broke a validity
-// rule, or a session that breaks an exclusion rule of its protocol, keeps its rows, with the reason.
-std::vector<Response> responses_of(const SessionRows& session);
+// Session files that may be used together, and what is wrong with the others: duplicates, mismatched
+// protocols, ...: one line each, files named. Light: no trial is read.
+struct ListedSession {
+    std::filesystem::path file;
+    SessionHead head;
+};
+struct SessionList {
+    std::vector<ListedSession> sessions;  // in the order of the files; all of one protocol
+    std::vector<std::string> problems;
+};
+SessionList list_sessions(const std::vector<std::filesystem::path>& files);
 
 // Study data in one go, without holding all of it in memory: each response is handed over once.
 struct StudyData {
@@ -32,7 +36,9 @@ struct StudyData {
     std::vector<std::string> problems;  // duplicates, mismatched protocols, ...: one line each, files named
 };
 
-// Reads everything `analyze` is given. Sessions that the inventory leaves out are named in `problems`. Throws
+// Reads everything `analyze` is given, each file once. A response is every testing trial that was not broken
+// off or started over; one that broke a validity rule, or whose session breaks an exclusion rule of its
+// protocol, carries the reason. Sessions that the inventory leaves out are named in `problems`. Throws
 // std::runtime_error with one line where an input cannot be read or nothing is left to analyse.
 StudyData read_study(const std::vector<std::string>& inputs,
                      const std::function<void(const Response&)>& on_response);

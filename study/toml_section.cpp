@@ -5,6 +5,8 @@
 #include <cmath>
 #include <sstream>
 
+#include "study/word_list.h"
+
 namespace parafovea {
 namespace {
 
@@ -28,13 +30,6 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
         }
     }
     return row[b.size()];
-}
-
-template <typename Names>
-std::string joined(const Names& names) {
-    std::string text;
-    for (const auto& name : names) text += (text.empty() ? "" : ", ") + std::string(name);
-    return text;
 }
 
 }  // namespace
