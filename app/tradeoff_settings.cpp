@@ -1,35 +1,32 @@
 // The settings of every method that a sweep measures when it is not told which.
-#include <utility>
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <string_view>
 
 #include "app/tradeoff_plan.h"
+#include "renderer/methods/method_settings.h"
 
 namespace parafovea {
+namespace {
+
+// A label without the word that says which of a method's settings it is: "KFR 2.4", "rings coarse".
+std::string family_of(const std::string& label) {
+    constexpr std::array<std::string_view, 5> kDegrees = {"coarse", "fine", "finest", "small", "large"};
+    const std::size_t space = label.rfind(' ');
+    if (space == std::string::npos) return label;
+    const std::string_view last = std::string_view(label).substr(space + 1);
+    const bool degree = std::isdigit(static_cast<unsigned char>(last.front())) != 0 ||
+                        std::ranges::find(kDegrees, last) != kDegrees.end();
+    return degree ? label.substr(0, space) : label;
+}
+
+}  // namespace
 
 std::vector<TradeoffMethod> standard_tradeoff_methods() {
     std::vector<TradeoffMethod> methods;
-    const auto add = [&](const char* family, std::map<std::string, double> numbers,
-                         std::map<std::string, std::string> words = {}) {
-        methods.push_back({family, {"kfr", std::move(numbers), std::move(words)}});
-    };
-    for (const double sigma : {1.2, 1.8, 2.4})
-        add("KFR as published", {{"sigma", sigma}, {"alpha", 4}, {"culling", 0}});
-    add("KFR", {{"sigma", 1.8}, {"alpha", 4}});
-    for (const double sigma : {1.8, 2.4})
-        add("KFR and inset", {{"sigma", sigma}, {"alpha", 4}, {"inset", 0.075}});
-    for (const auto& [width, height] : {std::pair(0.28, 1.25), std::pair(0.4, 1.785)})
-        add("KFR reshaped and inset", {{"sigma", 1.8},
-                                       {"alpha", 4},
-                                       {"width_scale", width},
-                                       {"height_scale", height},
-                                       {"inset", 0.05}});
-    for (const auto& [width, height] : {std::pair(0.267, 1.375), std::pair(0.38, 1.957)})
-        add("linear MAR and inset",
-            {{"sigma", 1.8},
-             {"width_scale", width},
-             {"height_scale", height},
-             {"mar_slope", 14},
-             {"mar_start", 0.039}},
-            {{"kernel", "linear_mar"}});
+    for (const NamedSetting& setting : tradeoff_settings())
+        methods.push_back({family_of(setting.label), setting.method});
     return methods;
 }
 

@@ -16,7 +16,7 @@ cp "${PARAFOVEA:?set PARAFOVEA to the program}" "$out/parafovea" # so that a reb
 
 # Frames are timed: a task has its node for itself, and all nodes should be alike.
 task='exec "$0"/parafovea tradeoff --shard "$SLURM_ARRAY_TASK_ID/$SLURM_ARRAY_TASK_COUNT" --out "$0/shard_$SLURM_ARRAY_TASK_ID" "$@"'
-join='exec "$0"/parafovea tradeoff --merge "$0"/shard_* --out "$0/all"'
+join='exec "$0"/parafovea tradeoff --merge "$0"/shard_*/ --out "$0/all"'
 
 quote() { # each argument in single quotes, for --wrap
     for word; do printf " '%s'" "$(printf %s "$word" | sed "s/'/'\\\\''/g")"; done

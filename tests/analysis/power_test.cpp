@@ -1,8 +1,7 @@
 // Power by simulation: what must hold for any design.
-#include "analysis/power.h"
-
 #include <gtest/gtest.h>
 
+#include "analysis/power_shards.h"
 #include "tests/analysis/temporary_folder.h"
 
 namespace parafovea {
@@ -105,6 +104,57 @@ TEST(Power, refuses_a_plan_without_conditions_or_with_an_alpha_nobody_assumed) {
               std::string::npos);
     question.plan.clear();
     EXPECT_NE(message_of([&] { simulate_power(question); }).find("no condition"), std::string::npos);
+}
+
+// Three folders, each with its shard of the question.
+std::vector<std::filesystem::path> write_shards(const PowerQuestion& question,
+                                                const TemporaryFolder& folder) {
+    std::vector<std::filesystem::path> folders;
+    for (int index = 1; index <= 3; ++index) {
+        folders.push_back(folder.path() / std::to_string(index));
+        write_power_shard(question, {index, 3}, simulate_studies(question, {index, 3}), folders.back());
+    }
+    return folders;
+}
+
+PowerQuestion question_for_shards() {
+    PowerQuestion question = small_question();
+    question.participants = {6, 9};
+    question.effects = {0, 1};
+    question.studies = 10;  // not a multiple of the number of shards
+    return question;
+}
+
+TEST(PowerShards, joined_are_the_unsharded_run_to_the_last_bit) {
+    const PowerQuestion question = question_for_shards();
+    const TemporaryFolder folder;
+    const MergedPower merged = merge_power_shards(write_shards(question, folder));
+    EXPECT_EQ(merged.studies, simulate_studies(question));
+    EXPECT_EQ(power_csv(power_of_studies(merged.question, merged.studies)),
+              power_csv(simulate_power(question)));
+}
+
+TEST(PowerShards, say_what_is_missing_given_twice_or_of_another_question) {
+    const PowerQuestion question = question_for_shards();
+    const TemporaryFolder folder;
+    const auto folders = write_shards(question, folder);
+    const auto message = [](const std::vector<std::filesystem::path>& given) {
+        return message_of([&] { merge_power_shards(given); });
+    };
+    EXPECT_EQ(message({folders[0], folders[2]}), "power --merge: shard 2/3 is missing; name its folder, too");
+    EXPECT_NE(message({folders[0], folders[1], folders[1]}).find("is shard 2, and so is"), std::string::npos);
+    EXPECT_NE(message({folders[0], folder.path() / "nowhere"}).find("cannot be read"), std::string::npos);
+
+    PowerQuestion other = question;
+    other.seed = 2;
+    write_power_shard(other, {2, 3}, simulate_studies(other, {2, 3}), folders[1]);
+    EXPECT_NE(message(folders).find("answers another question"), std::string::npos);
+
+    const std::string text = text_of(folders[0] / kPowerShardName);
+    folder.write("1/power.shard", text.substr(0, text.rfind('\n', text.size() - 2) + 1));
+    EXPECT_NE(message({folders[0]}).find("Run that shard again"), std::string::npos);
+    folder.write("1/power.shard", "something else\n");
+    EXPECT_NE(message({folders[0]}).find("is no shard of a power simulation"), std::string::npos);
 }
 
 }  // namespace
