@@ -224,13 +224,13 @@ class TradeoffCommand {
     std::vector<std::string> scenes_ = {"atrium"};
     std::vector<std::string> methods_;
     std::vector<std::string> sizes_ = {"1280x720"};
-    std::vector<std::string> gazes_ = {"centre", "quarter", "corner", "path"};
+    std::vector<std::string> gazes_ = {"centre"};
     std::vector<std::string> motions_ = {"still", "path"};
     std::vector<std::string> merge_;
     std::string protocol_, gaze_recording_, shard_, predict_, out_;
     int participants_ = 18;
     double fov_deg_ = 100, peak_cd_m2_ = 100, refresh_hz_ = 70, gaze_age_ms_ = 0;
-    int rounds_ = 5, frames_ = 8, taa_ = 0, reference_samples_ = 16;
+    int rounds_ = 3, frames_ = 5, taa_ = 0, reference_samples_ = 16;
     std::uint64_t seed_ = 1;
     bool quiet_ = false;
 };
