@@ -97,7 +97,7 @@ std::string timing_figure_script(const FrameTimes& frames, const StudyDescriptio
     std::string note = std::to_string(all) + " frames";
     if (period > 0.0) note += ", " + std::to_string(missed) + " later than 1.5 refreshes";
     if (beyond > 0) note += ", " + std::to_string(beyond) + " beyond this axis";
-    body += "set label \"" + note + "\" at graph 0.98,graph 0.92 right font ',9' textcolor rgb '#333333'\n";
+    body += "set label \"" + note + "\" at graph 1,graph 1.13 right font ',9' textcolor rgb '#333333'\n";
     // A border keeps single bins visible in print.
     body += "plot $frames using 1:2 with boxes linecolor rgb '#0072B2' linewidth 1.5\n";
     return figure_script(stem, {15.0, 8.0}, body);
