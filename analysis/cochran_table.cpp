@@ -42,6 +42,7 @@ std::vector<std::string> notes(const CochranTable& table) {
         uniform = uniform || !row.q.q;
         if (std::find(dfs.begin(), dfs.end(), row.q.df) == dfs.end()) dfs.push_back(row.q.df);
     }
+    if (table.rows.empty()) return lines;  // what follows explains columns of values
     std::string critical = "Q is beyond its critical value where it exceeds";
     for (std::size_t i = 0; i < dfs.size(); ++i)
         critical += std::string(i ? "," : "") + " chi2(" + std::to_string(dfs[i]) +

@@ -11,7 +11,7 @@ SHARED_BEGIN
 
 const float kMapPi = 3.14159265358979f;
 
-// ln(x), to 8e-8 of its value or of 1, whichever is larger; x above 1e-37, less counts as that.
+// ln(x), to 1e-7 of its value or of 1, whichever is larger; x above 1e-37, less counts as that.
 SHARED_FUNCTION float natural_log(float x) {
     int bits = bits_of(max(x, 1e-37f));
     int exponent = (bits - 0x3f3504f3) >> 23;  // x = m 2^exponent with m from sqrt(1/2) to sqrt(2)
