@@ -54,7 +54,8 @@ std::string gaze_figure_script(const GazeHeatMap& gaze, const StudyDescription& 
         "'#00224E')\nset cbrange [0:*]\n";
     body += "set xlabel \"azimuth (°, right positive)\"\nset ylabel \"elevation (°, up positive)\"\n";
     body +=
-        "set cblabel \"% of samples per square degree\"\nset tics out nomirror scale 0.5\nunset key\nset "
+        "set cblabel \"% of samples per square degree\" offset 1.5,0\nset tics out nomirror scale 0.5\nunset "
+        "key\nset "
         "tmargin 4\n";
     body += "plot $gaze using 1:2:3 with image\n";
     return figure_script(stem, {14.0, 11.0}, body);
