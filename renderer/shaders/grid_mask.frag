@@ -91,7 +91,7 @@ bool needed_layered(vec2 texel) {
     int layer = layer_of_texel(texel);
     if (layer < 0) return false;
     GridLayer l = grid.layers[layer];
-    bool one_block = is_native(l) || (kGrid == kGridTiles && kInterpolateTiles == 0u);
+    bool one_block = kGrid == kGridLayers ? layer == 0 : is_native(l) || kInterpolateTiles == 0u;
     // Which pixels may read it.
     vec2 middle = layer_to_screen(l, one_block ? texel : texel + jitter);
     float reach = one_block ? 0.5 * l.step_px - 0.5 : l.step_px * kReach;

@@ -32,18 +32,18 @@ vec3 read_nearest(GridLayer layer) {
     return texelFetch(samples, ivec2(floor(layer_to_buffer(layer, gl_FragCoord.xy))), 0).rgb;
 }
 
+// The finest layer is the screen's own pixels. Where a finer layer is all that is seen, a sample may be missing.
 vec3 read_layers() {
     int coarsest = int(grid.layer_count) - 1;
     vec3 sum = vec3(0.0);
-    for (int i = coarsest; i >= 0; --i) {
-        GridLayer layer = grid.layers[i];
-        float share = share_of_extent(layer, grid.gaze, gl_FragCoord.xy);
-        float weight = i == coarsest ? 1.0 : layer_weight(layer, share);
-        // Below a finer layer a sample may be missing.
-        bool hidden = i > 0 && share_of_extent(grid.layers[i - 1], grid.gaze, gl_FragCoord.xy) <= grid.layers[i - 1].opaque;
-        if (weight > 0.0 && !hidden) sum = mix(sum, is_native(layer) ? read_nearest(layer) : read_smoothly(layer), weight);
+    float finer_share = 0.0;
+    for (int i = coarsest; i > 0; --i) {
+        finer_share = share_of_extent(grid.layers[i - 1], grid.gaze, gl_FragCoord.xy);
+        float weight = i == coarsest ? 1.0 : layer_weight(grid.layers[i], share_of_extent(grid.layers[i], grid.gaze, gl_FragCoord.xy));
+        if (weight > 0.0 && finer_share > grid.layers[i - 1].opaque) sum = mix(sum, read_smoothly(grid.layers[i]), weight);
     }
-    return sum;
+    float weight = layer_weight(grid.layers[0], finer_share);
+    return weight > 0.0 ? mix(sum, read_nearest(grid.layers[0]), weight) : sum;
 }
 
 vec3 read_tiles() {
