@@ -1,7 +1,5 @@
 // `parafovea run` from outside: killed at any moment, it goes on and ends like a session that was not.
 #include <gtest/gtest.h>
-#include <signal.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <chrono>
@@ -15,6 +13,7 @@
 #include "devices/random.h"
 #include "study/database.h"
 #include "study/session_log_reader.h"
+#include "tests/app/child_process.h"
 #include "tests/app/short_study.h"
 
 namespace parafovea {
@@ -22,43 +21,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using Seconds = std::chrono::duration<double>;
-
-// A child process with its output thrown away; killed at the end of its life if it still runs.
-class Child {
-  public:
-    explicit Child(std::vector<std::string> arguments) : pid_(fork()) {
-        if (pid_ != 0) return;
-        std::vector<char*> raw;
-        for (std::string& argument : arguments) raw.push_back(argument.data());
-        raw.push_back(nullptr);
-        if (freopen("/dev/null", "w", stdout) && freopen("/dev/null", "w", stderr)) execv(raw[0], raw.data());
-        _exit(127);
-    }
-    Child(const Child&) = delete;
-    ~Child() {
-        if (pid_ > 0) kill_and_wait();
-    }
-
-    int wait() {
-        int status = 0;
-        waitpid(pid_, &status, 0);
-        pid_ = 0;
-        return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-    }
-    int kill_and_wait() {
-        kill(pid_, SIGKILL);
-        return wait();
-    }
-    void interrupt() const { kill(pid_, SIGINT); }
-    bool runs() const {
-        siginfo_t info{};
-        return waitid(P_PID, static_cast<id_t>(pid_), &info, WEXITED | WNOHANG | WNOWAIT) == 0 &&
-               info.si_pid == 0;
-    }
-
-  private:
-    pid_t pid_;
-};
 
 class RunSession : public testing::Test {
   protected:

@@ -1,10 +1,5 @@
 // The Open Gaze decoder, and the socket source against a tracker's server of our own on the loopback.
-#include <arpa/inet.h>
 #include <gmock/gmock.h>
-#include <netinet/in.h>
-#include <poll.h>
-#include <sys/socket.h>
-#include <unistd.h>
 
 #include <chrono>
 #include <cmath>
@@ -12,6 +7,7 @@
 #include <thread>
 
 #include "devices/gazepoint/gazepoint_gaze.h"
+#include "tests/devices/fake_gazepoint.h"
 
 namespace parafovea {
 namespace {
@@ -79,75 +75,6 @@ TEST(LineSplitter, AnEndlessLineIsThrownAwayAndTheNextIsRead) {
     EXPECT_THAT(splitter.feed("tail\nnext\n"), testing::ElementsAre("next"));
 }
 
-// A tracker on the loopback: accepts, waits to be enabled, streams records at a rate, can hang up.
-class FakeTracker {
-  public:
-    FakeTracker() {
-        listener_ = ::socket(AF_INET, SOCK_STREAM, 0);
-        sockaddr_in address{};
-        address.sin_family = AF_INET;
-        address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-        if (::bind(listener_, reinterpret_cast<sockaddr*>(&address), sizeof address) != 0 ||
-            ::listen(listener_, 1) != 0)
-            throw std::runtime_error("no loopback");
-        socklen_t size = sizeof address;
-        ::getsockname(listener_, reinterpret_cast<sockaddr*>(&address), &size);
-        port_ = ntohs(address.sin_port);
-        thread_ = std::jthread([this](std::stop_token stop) { run(stop); });
-    }
-    ~FakeTracker() {
-        thread_ = {};
-        ::close(listener_);
-    }
-
-    std::uint16_t port() const { return port_; }
-    void hang_up() { hang_up_ = true; }
-    int connections() const { return connections_; }
-
-  private:
-    void run(std::stop_token stop) {
-        int count = 0;
-        const auto began = std::chrono::steady_clock::now();
-        while (!stop.stop_requested()) {
-            pollfd ready{listener_, POLLIN, 0};
-            if (poll(&ready, 1, 20) != 1) continue;
-            const int client = ::accept(listener_, nullptr, nullptr);
-            ++connections_;
-            std::string asked;
-            while (!stop.stop_requested() &&
-                   asked.find("ENABLE_SEND_DATA\" STATE=\"1\"") == std::string::npos) {
-                char bytes[512];
-                const ssize_t size = ::recv(client, bytes, sizeof bytes, 0);
-                if (size <= 0) break;
-                asked.append(bytes, static_cast<std::size_t>(size));
-            }
-            EXPECT_NE(asked.find("ENABLE_SEND_POG_BEST"), std::string::npos);
-            while (!stop.stop_requested() && !hang_up_.exchange(false)) {
-                const double t =
-                    std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
-                char line[256];
-                const int size =
-                    std::snprintf(line, sizeof line,
-                                  "<ACK ID=\"X\" />\r\n<REC CNT=\"%d\" TIME=\"%.5f\" BPOGX=\"0.75\" "
-                                  "BPOGY=\"0.25\" BPOGV=\"%d\" />\r\n",
-                                  count, 100 + t, count % 10 != 9);
-                ++count;
-                // In two pieces, as the network may cut it.
-                ::send(client, line, 20, MSG_NOSIGNAL);
-                ::send(client, line + 20, static_cast<std::size_t>(size - 20), MSG_NOSIGNAL);
-                std::this_thread::sleep_for(std::chrono::milliseconds(5));
-            }
-            ::close(client);
-        }
-    }
-
-    int listener_ = -1;
-    std::uint16_t port_ = 0;
-    std::atomic<bool> hang_up_ = false;
-    std::atomic<int> connections_ = 0;
-    std::jthread thread_;
-};
-
 // Drains until there are n samples or 10 s have passed.
 std::vector<GazeSample> collect(GazeSource& source, std::size_t n) {
     std::vector<GazeSample> samples;
@@ -159,7 +86,7 @@ std::vector<GazeSample> collect(GazeSource& source, std::size_t n) {
 }
 
 TEST(GazepointGaze, ReadsAStreamWithDirectionsOrderAndTimes) {
-    FakeTracker tracker;
+    FakeGazepoint tracker;
     SteadyClock clock;
     GazepointSettings settings;
     settings.port = tracker.port();
@@ -182,7 +109,7 @@ TEST(GazepointGaze, ReadsAStreamWithDirectionsOrderAndTimes) {
 }
 
 TEST(GazepointGaze, ABrokenConnectionIsMadeAgain) {
-    FakeTracker tracker;
+    FakeGazepoint tracker;
     SteadyClock clock;
     GazepointSettings settings;
     settings.port = tracker.port();
