@@ -174,13 +174,13 @@ TEST_P(EveryMethod, DrawsTheSamePictureWithAndWithoutCulling) {
     } catch (const std::runtime_error&) {
         GTEST_SKIP() << "the method has no culling";
     }
-    for (const SizePx size : {SizePx{120, 68}, SizePx{41, 60}}) {
+    for (const SizePx size : {SizePx{80, 45}, SizePx{41, 60}}) {
         // Drawn in turn, so that what is not shaded holds the remains of other gazes.
         PictureMethod with(gpu_, noise_picture(size), GetParam());
         PictureMethod without(gpu_, noise_picture(size), GetParam());
         const double w = size.width, h = size.height;
         for (const PointPx gaze : {PointPx{w / 2, h / 2}, PointPx{0, 0}, PointPx{0.3 * w + 0.1, 0.8 * h},
-                                   PointPx{-50, h / 2}, PointPx{w + 3, -2}, PointPx{1e6, 1e6}}) {
+                                   PointPx{-50, h / 2}, PointPx{1e6, 1e6}}) {
             for (const Jitter jitter : {Jitter{}, Jitter{-0.5f, 0.4f}}) {
                 const Image a = with.draw(culled, gaze, jitter);
                 const Image b = without.draw(whole, gaze, jitter);
