@@ -293,10 +293,10 @@ class RunningSession {
 
     // Whether it was measured and is not good enough.
     bool measure_calibration() {
+        tell("calibration", nullptr);
         if (options_.show_texts && !protocol_.text().calibration.empty())
             show_text("before calibration", protocol_.text().calibration, 0, true);
         if (stop_requested()) return false;
-        tell("calibration", nullptr);
         return measure("calibration", hooks_.calibrate);
     }
 

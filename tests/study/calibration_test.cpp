@@ -68,6 +68,27 @@ TEST(DriftCheck, is_made_after_each_rest_and_at_each_sessions_start_and_stored_b
     EXPECT_THAT(happened(rows), ElementsAre("drift check not good enough: 1.50 degrees"));
 }
 
+TEST(Calibration, is_what_the_operator_is_told_while_its_page_is_shown) {
+    TemporaryFolder folder;
+    SessionLog log = start(folder / "s.sqlite", protocol_with("", "calibration = \"Look at each cross.\"\n"));
+    ProgramRun run;
+    SessionHooks hooks;
+    std::string told;
+    hooks.on_progress = [&](const SessionProgress& progress) { told = progress.state; };
+    hooks.calibrate = [] { return measured("calibration", 0.5, true); };
+    int shown = 0;
+    const auto before_show = run.stage.before_show;
+    run.stage.before_show = [&](const Picture& picture) {
+        if (picture.text == "Look at each cross.") {
+            ++shown;
+            EXPECT_EQ(told, "calibration");
+        }
+        before_show(picture);
+    };
+    EXPECT_EQ(run.go(log, hooks), SessionEnd::finished);
+    EXPECT_GT(shown, 0);
+}
+
 TEST(DriftCheck, without_a_threshold_there_is_none) {
     TemporaryFolder folder;
     SessionLog log = start(folder / "s.sqlite");
