@@ -94,8 +94,8 @@ INSERT INTO time_source VALUES (0, 'predicted'), (1, 'compositor'), (2, 'gpu'), 
 CREATE TABLE interval (
     trial_id               INTEGER NOT NULL REFERENCES trial,
     phase                  INTEGER NOT NULL REFERENCES phase,
-    intended_frames        INTEGER NOT NULL,  -- 0: until the answer
-    presented_frames       INTEGER NOT NULL,  -- pictures shown
+    intended_frames        INTEGER NOT NULL,  -- refreshes it should last; 0: until the answer
+    presented_frames       INTEGER NOT NULL,  -- pictures shown; a missed refresh costs one, so that the duration is kept
     first_display_host_ns  INTEGER NOT NULL,  -- of its first frame
     last_display_host_ns   INTEGER NOT NULL,  -- of its last frame
     end_host_ns            INTEGER NOT NULL,  -- of the frame after it

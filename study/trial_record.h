@@ -31,8 +31,8 @@ struct FrameRecord {
 // One phase of whole frames. Durations are rounded to frames of the real rate once, before the trial.
 struct IntervalRecord {
     Phase phase = Phase::lead_in;
-    int intended_frames = 0;               // 0 for the question, which ends with the answer
-    int presented_frames = 0;              // pictures shown
+    int intended_frames = 0;   // refreshes it should last; 0 for the question, which ends with the answer
+    int presented_frames = 0;  // pictures shown; a missed refresh costs one, so that the duration is kept
     HostTime first_display, last_display;  // of the first and the last frame
     HostTime end;                          // last_display plus one frame period
     TimeSource time_source = TimeSource::predicted;

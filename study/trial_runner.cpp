@@ -63,9 +63,11 @@ class RunningTrial {
     }
 
     void show_phase(Phase phase, const Picture& picture, int frames) {
-        interval(phase).phase = phase;
-        interval(phase).intended_frames = frames;
-        for (int i = 0; i < frames && !stopped(); ++i) show_frame(phase, picture);
+        IntervalRecord& now = interval(phase);
+        now.phase = phase;
+        now.intended_frames = frames;
+        // A missed refresh costs a frame, so that the phase lasts as long as it should.
+        while (now.presented_frames + now.missed_vsyncs < frames && !stopped()) show_frame(phase, picture);
         close(phase);
     }
 

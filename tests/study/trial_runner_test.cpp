@@ -95,21 +95,21 @@ TEST_P(AtEveryRate, intervals_last_their_intended_frames_exactly) {
 
 INSTANTIATE_TEST_SUITE_P(TrialRunner, AtEveryRate, testing::Values(59.94, 60, 70, 72, 90, 120, 144));
 
-TEST(TrialRunner, a_missed_refresh_is_counted_for_the_frame_that_stayed_on) {
+TEST(TrialRunner, a_missed_refresh_is_counted_for_the_frame_that_stayed_on_and_costs_a_frame_but_no_time) {
     Lab lab;
-    // Frames 5..24 are the first interval. 10 is late: 9 stayed on. 25, the first of the gap, is late: 24
-    // stayed on.
-    lab.stage.late = {10, 25};
+    // Frames 5..23 are the first interval. 10 is late: 9 stayed on, and the interval has a frame less. 24,
+    // the first of the gap, is late: 23 stayed on, and it is too late to make up for it.
+    lab.stage.late = {10, 24};
     const TrialRecord record = lab.run();
+    const IntervalRecord& first = interval(record, Phase::first_interval);
     EXPECT_EQ(interval(record, Phase::lead_in).missed_vsyncs, 0);
-    EXPECT_EQ(interval(record, Phase::first_interval).missed_vsyncs, 2);
-    EXPECT_EQ(interval(record, Phase::first_interval).presented_frames, 20);
-    EXPECT_EQ(interval(record, Phase::first_interval).longest_frame.ms(), 20);
-    EXPECT_EQ(
-        (interval(record, Phase::first_interval).end - interval(record, Phase::first_interval).first_display)
-            .ms(),
-        220);
+    EXPECT_EQ(first.intended_frames, 20);
+    EXPECT_EQ(first.missed_vsyncs, 2);
+    EXPECT_EQ(first.presented_frames, 19);
+    EXPECT_EQ(first.longest_frame.ms(), 20);
+    EXPECT_EQ((first.end - first.first_display).ms(), 210);
     EXPECT_EQ(interval(record, Phase::gap).missed_vsyncs, 0);
+    EXPECT_EQ(interval(record, Phase::gap).presented_frames, 10);
     EXPECT_EQ(interval(record, Phase::gap).longest_frame.ms(), 10);
 }
 
