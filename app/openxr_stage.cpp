@@ -115,6 +115,8 @@ bool OpenXrStage::next_turn() {
         }
         note(name_of(frame->checked.fault));
         if (std::exchange(beginnings_, session_->beginnings()) != session_->beginnings()) note("headset_off");
+        if (std::exchange(recentrings_, session_->recentrings()) != session_->recentrings())
+            note("recentred");
         missed_ += frame->checked.missed_refreshes;
         clock_.wait_until(frame->display_time - frame->period);
         if (frame->should_render && !frame->views.empty()) {

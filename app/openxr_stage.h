@@ -36,7 +36,8 @@ struct OpenXrStageOptions {
 // else meanwhile) shows the picture before once more, and counts as missed. Faults in ShownFrame:
 // "display_time_not_positive", "display_time_backwards", "display_time_far_ahead", "session_lost" (a new one
 // was made), "headset_off" (taken off, and on again), "not_visible" and "not_focused" (the runtime showed
-// something else, or over it), "eyes_moved" (the distance of the eyes was turned to another: eyes() changed).
+// something else, or over it), "eyes_moved" (the distance of the eyes was turned to another: eyes() changed),
+// "recentred" (by the user; pictures before the eyes do not move, but the participant was busy with it).
 class OpenXrStage final : public Stage {
   public:
     // Waits until the headset shows our frames. Throws one line if there is no runtime, headset or device,
@@ -92,6 +93,7 @@ class OpenXrStage final : public Stage {
     HostTime turn_began_;
     std::int64_t next_index_ = 0;
     int beginnings_ = 0;           // of the session, that are known
+    int recentrings_ = 0;          // that are known
     int missed_ = 0;               // since the frame shown last
     bool anything_shown_ = false;  // by this session
     bool watched_ = false;         // this frame is one that the audience looks at

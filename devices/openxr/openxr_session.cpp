@@ -151,6 +151,11 @@ SessionState OpenXrSession::update() {
             XrEventDataSessionStateChanged change{};
             std::memcpy(&change, &*event, sizeof change);
             if (change.session == session_) follow(change);
+        } else if (event->type == XR_TYPE_EVENT_DATA_REFERENCE_SPACE_CHANGE_PENDING) {
+            XrEventDataReferenceSpaceChangePending change{};
+            std::memcpy(&change, &*event, sizeof change);
+            recentrings_ +=
+                change.session == session_ && change.referenceSpaceType == XR_REFERENCE_SPACE_TYPE_LOCAL;
         } else if (event->type == XR_TYPE_EVENT_DATA_INSTANCE_LOSS_PENDING) {
             throw std::runtime_error("the OpenXR runtime is shutting down; start it again, then resume");
         }

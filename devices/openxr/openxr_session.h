@@ -79,6 +79,9 @@ class OpenXrSession {
     // Without effect on pictures in the head's frame. False while the head is not tracked.
     bool recentre();
 
+    // How often the user has recentred through the runtime: straight ahead in the room is another way now.
+    int recentrings() const { return recentrings_; }
+
     // Asks the runtime to end the session; begin_frame() goes on until it has.
     void request_exit();
 
@@ -126,7 +129,7 @@ class OpenXrSession {
     std::vector<Swapchain> swapchains_;
     SessionState state_ = SessionState::starting;
     bool running_ = false;
-    int restarts_ = 0, beginnings_ = 0;
+    int restarts_ = 0, beginnings_ = 0, recentrings_ = 0;
     DisplayTimeCheck display_times_;
     std::optional<Duration> period_;
 };

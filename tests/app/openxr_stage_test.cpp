@@ -268,7 +268,8 @@ INSTANTIATE_TEST_SUITE_P(Each, OpenXrStageFault,
                                          FaultCase{"late@20:3", {}, 3},
                                          FaultCase{"session_lost@20", {"session_lost"}, 1},
                                          FaultCase{"stopping@20", {"not_focused", "headset_off"}, 1},
-                                         FaultCase{"hidden@20:5", {"not_focused", "not_visible"}, 1}),
+                                         FaultCase{"hidden@20:5", {"not_focused", "not_visible"}, 1},
+                                         FaultCase{"recentred@20", {"recentred"}, 0}),
                          [](const testing::TestParamInfo<FaultCase>& test) {
                              const std::string script = test.param.script;
                              return script.substr(0, script.find('@'));
