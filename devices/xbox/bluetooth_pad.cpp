@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <array>
+#include <memory>
+#include <span>
 #include <stdexcept>
 
 #include "devices/xbox/xbox_report.h"
@@ -17,7 +19,58 @@ constexpr std::uint16_t kMicrosoft = 0x045e;
 constexpr std::array<std::uint16_t, 7> kBluetoothProducts = {0x02e0, 0x02fd, 0x0b05, 0x0b13,
                                                              0x0b20, 0x0b21, 0x0b22};
 constexpr Duration kInterval = {15'000'000};
-constexpr int kReadTimeout_ms = 50;
+
+class OpenBluetoothPad final : public OpenPad {
+  public:
+    OpenBluetoothPad(Clock& clock, hid_device* handle, std::uint16_t product)
+        : clock_(clock), handle_(handle), product_(product) {}
+    OpenBluetoothPad(const OpenBluetoothPad&) = delete;
+    OpenBluetoothPad& operator=(const OpenBluetoothPad&) = delete;
+    ~OpenBluetoothPad() override { hid_close(handle_); }
+
+    bool read(std::vector<ControllerEvent>& events) override {
+        std::array<std::uint8_t, 256> report;
+        const int size = hid_read_timeout(handle_, report.data(), report.size(), kPadReadTimeout_ms);
+        const HostTime arrival = clock_.now();
+        if (size < 0) return false;
+        const auto state =
+            decode_xbox_bluetooth(std::span(report).first(static_cast<std::size_t>(size)), product_);
+        if (!state) return true;
+        append_changes(state_, *state, arrival, kInterval, events);
+        state_ = *state;
+        return true;
+    }
+
+    std::string description() const override {
+        return "Xbox pad over Bluetooth through hidapi, stamped on arrival, reports at most 15 ms apart";
+    }
+
+  private:
+    Clock& clock_;
+    hid_device* handle_;
+    std::uint16_t product_;
+    PadState state_;
+};
+
+class BluetoothPadFinder final : public PadFinder {
+  public:
+    explicit BluetoothPadFinder(Clock& clock) : clock_(clock) {}
+
+    std::unique_ptr<OpenPad> open() override {
+        const auto found = list_bluetooth_pads();
+        if (found.empty())
+            throw std::runtime_error(
+                "no Xbox pad is connected over Bluetooth; pair one, or see `parafovea devices`");
+        hid_device* const handle = hid_open_path(found.front().path.c_str());
+        if (!handle)
+            throw std::runtime_error("the Xbox pad at " + found.front().path +
+                                     " may not be opened; install the udev rules (see `parafovea devices`)");
+        return std::make_unique<OpenBluetoothPad>(clock_, handle, found.front().product);
+    }
+
+  private:
+    Clock& clock_;
+};
 
 }  // namespace
 
@@ -40,75 +93,7 @@ std::vector<FoundBluetoothPad> list_bluetooth_pads() {
     return found;
 }
 
-struct BluetoothPad::Device {
-    Device(hid_device* h, std::uint16_t p) : handle(h), product(p) {}
-    Device(const Device&) = delete;
-    Device& operator=(const Device&) = delete;
-    ~Device() { hid_close(handle); }
-
-    hid_device* handle;
-    std::uint16_t product;
-    PadState state;
-};
-
 BluetoothPad::BluetoothPad(Clock& clock, Duration search_interval)
-    : clock_(clock), search_interval_(search_interval) {
-    device_ = open();
-    connected_ = true;
-    thread_ = std::jthread([this](std::stop_token stop) { run(stop); });
-}
-
-BluetoothPad::~BluetoothPad() = default;
-
-std::unique_ptr<BluetoothPad::Device> BluetoothPad::open() {
-    const auto found = list_bluetooth_pads();
-    if (found.empty())
-        throw std::runtime_error(
-            "no Xbox pad is connected over Bluetooth; pair one, or see `parafovea devices`");
-    hid_device* const handle = hid_open_path(found.front().path.c_str());
-    if (!handle)
-        throw std::runtime_error("the Xbox pad at " + found.front().path +
-                                 " may not be opened; install the udev rules (see `parafovea devices`)");
-    if (description_.empty())
-        description_ =
-            "Xbox pad over Bluetooth through hidapi, stamped on arrival, reports at most 15 ms apart";
-    return std::make_unique<Device>(handle, found.front().product);
-}
-
-void BluetoothPad::run(std::stop_token stop) {
-    HostTime search_at = clock_.now();
-    while (!stop.stop_requested()) {
-        if (!device_) {
-            std::this_thread::sleep_for(std::chrono::milliseconds(10));
-            if (clock_.now() < search_at) continue;
-            search_at = clock_.now() + search_interval_;
-            try {
-                device_ = open();
-                connected_ = true;
-                ring_.push({ControllerEventKind::connected, {}, clock_.now(), search_interval_});
-            } catch (const std::runtime_error&) {
-                // Still away: try again.
-            }
-            continue;
-        }
-        std::array<std::uint8_t, 256> report;
-        const int size = hid_read_timeout(device_->handle, report.data(), report.size(), kReadTimeout_ms);
-        const HostTime arrival = clock_.now();
-        if (size < 0) {
-            device_.reset();
-            connected_ = false;
-            ring_.push({ControllerEventKind::disconnected, {}, arrival, Duration::from_ms(kReadTimeout_ms)});
-            search_at = arrival + search_interval_;
-            continue;
-        }
-        const auto state =
-            decode_xbox_bluetooth(std::span(report).first(static_cast<std::size_t>(size)), device_->product);
-        if (!state) continue;
-        std::vector<ControllerEvent> events;
-        append_changes(device_->state, *state, arrival, kInterval, events);
-        device_->state = *state;
-        for (const ControllerEvent& event : events) ring_.push(event);
-    }
-}
+    : PadThread(clock, search_interval, std::make_unique<BluetoothPadFinder>(clock)) {}
 
 }  // namespace parafovea

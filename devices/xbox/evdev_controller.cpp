@@ -13,6 +13,8 @@
 #include <memory>
 #include <stdexcept>
 
+#include "devices/xbox/evdev_decoder.h"
+
 namespace parafovea {
 namespace {
 
@@ -58,6 +60,81 @@ std::string joystick_link_target(const std::filesystem::path& event) {
     return {};
 }
 
+class OpenEvdevPad final : public OpenPad {
+  public:
+    // Takes over the file. Throws if the pad cannot stamp its events on our clock.
+    OpenEvdevPad(Clock& clock, int fd, const FoundPad& found)
+        : clock_(clock),
+          fd_(fd),
+          name_(found.name),
+          error_(polling_interval(found.bus, found.vendor)),
+          decoder_(error_) {
+        // Stamps on our clock instead of the wall clock; without them no response time is worth anything.
+        int clock_id = CLOCK_MONOTONIC;
+        if (ioctl(fd_, EVIOCSCLOCKID, &clock_id) < 0) {
+            ::close(fd_);
+            throw std::runtime_error("the pad at " + found.path +
+                                     " cannot stamp its events with CLOCK_MONOTONIC");
+        }
+        // Buttons held down from before are nobody's answer.
+        std::vector<ControllerEvent> from_before;
+        decoder_.resynchronise(read_state(fd_), clock_.now(), from_before);
+    }
+    OpenEvdevPad(const OpenEvdevPad&) = delete;
+    OpenEvdevPad& operator=(const OpenEvdevPad&) = delete;
+    ~OpenEvdevPad() override { ::close(fd_); }
+
+    bool read(std::vector<ControllerEvent>& events) override {
+        pollfd ready{fd_, POLLIN, 0};
+        if (poll(&ready, 1, kPadReadTimeout_ms) <= 0) return true;
+        std::array<input_event, 64> packet;
+        const ssize_t bytes = ::read(fd_, packet.data(), sizeof packet);
+        if (bytes < 0 && (errno == EAGAIN || errno == EINTR)) return true;
+        if (bytes <= 0) return false;
+        for (std::size_t i = 0; i < static_cast<std::size_t>(bytes) / sizeof(input_event); ++i)
+            if (!decoder_.decode(packet[i], events))
+                decoder_.resynchronise(read_state(fd_), clock_.now(), events);
+        return true;
+    }
+
+    std::string description() const override {
+        return "evdev pad " + name_ + ", kernel time stamps, polled every " +
+               std::to_string(error_.ns / 1000) + " us";
+    }
+
+  private:
+    Clock& clock_;
+    int fd_;
+    std::string name_;
+    Duration error_;
+    EvdevDecoder decoder_;
+};
+
+class EvdevFinder final : public PadFinder {
+  public:
+    explicit EvdevFinder(Clock& clock) : clock_(clock) {}
+
+    std::unique_ptr<OpenPad> open() override {
+        const auto pads = list_evdev_pads();
+        if (pads.empty())
+            throw std::runtime_error(
+                "no pad is connected under /dev/input; plug one in, or see `parafovea devices`");
+        const auto pad = std::find_if(pads.begin(), pads.end(), [](const FoundPad& p) { return p.readable; });
+        if (pad == pads.end())
+            throw std::runtime_error("the pad at " + pads.front().path +
+                                     " may not be read; install the udev rules or join the group input (see "
+                                     "`parafovea devices`)");
+        const int fd = ::open(pad->path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+        if (fd < 0)
+            throw std::runtime_error("the pad at " + pad->path +
+                                     " went away while being opened; plug it in again");
+        return std::make_unique<OpenEvdevPad>(clock_, fd, *pad);
+    }
+
+  private:
+    Clock& clock_;
+};
+
 }  // namespace
 
 std::vector<FoundPad> list_evdev_pads() {
@@ -93,98 +170,7 @@ std::vector<FoundPad> list_evdev_pads() {
     return found;
 }
 
-struct EvdevController::Device {
-    Device(int opened, Duration error) : fd(opened), decoder(error) {}
-    Device(const Device&) = delete;
-    Device& operator=(const Device&) = delete;
-    ~Device() { ::close(fd); }
-
-    int fd;
-    EvdevDecoder decoder;
-};
-
 EvdevController::EvdevController(Clock& clock, Duration search_interval)
-    : clock_(clock), search_interval_(search_interval) {
-    device_ = open();
-    connected_ = true;
-    thread_ = std::jthread([this](std::stop_token stop) { run(stop); });
-}
-
-EvdevController::~EvdevController() = default;
-
-std::unique_ptr<EvdevController::Device> EvdevController::open() {
-    const auto pads = list_evdev_pads();
-    if (pads.empty())
-        throw std::runtime_error(
-            "no pad is connected under /dev/input; plug one in, or see `parafovea devices`");
-    const auto pad = std::find_if(pads.begin(), pads.end(), [](const FoundPad& p) { return p.readable; });
-    if (pad == pads.end())
-        throw std::runtime_error(
-            "the pad at " + pads.front().path +
-            " may not be read; install the udev rules or join the group input (see `parafovea devices`)");
-    const int fd = ::open(pad->path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
-    if (fd < 0)
-        throw std::runtime_error("the pad at " + pad->path +
-                                 " went away while being opened; plug it in again");
-    const Duration error = polling_interval(pad->bus, pad->vendor);
-    auto device = std::make_unique<Device>(fd, error);
-
-    // Stamps on our clock instead of the wall clock; without them no response time is worth anything.
-    int clock_id = CLOCK_MONOTONIC;
-    if (ioctl(fd, EVIOCSCLOCKID, &clock_id) < 0)
-        throw std::runtime_error("the pad at " + pad->path + " cannot stamp its events with CLOCK_MONOTONIC");
-    if (description_.empty())
-        description_ = "evdev pad " + pad->name + ", kernel time stamps, polled every " +
-                       std::to_string(error.ns / 1000) + " us";
-    return device;
-}
-
-void EvdevController::run(std::stop_token stop) {
-    std::vector<ControllerEvent> events;
-    const auto publish = [&] {
-        for (const ControllerEvent& event : events) ring_.push(event);
-        events.clear();
-    };
-    device_->decoder.resynchronise(read_state(device_->fd), clock_.now(), events);
-    events.clear();  // buttons held down from before are nobody's answer
-
-    HostTime search_at = clock_.now();
-    while (!stop.stop_requested()) {
-        if (!device_) {
-            std::this_thread::sleep_for(std::chrono::milliseconds(10));
-            if (clock_.now() < search_at) continue;
-            search_at = clock_.now() + search_interval_;
-            try {
-                device_ = open();
-            } catch (const std::runtime_error&) {
-                continue;  // still unplugged
-            }
-            device_->decoder.resynchronise(read_state(device_->fd), clock_.now(), events);
-            events.clear();
-            connected_ = true;
-            ring_.push({ControllerEventKind::connected, {}, clock_.now(), search_interval_});
-            continue;
-        }
-
-        // Wait for events, a little at a time so that stopping is prompt.
-        pollfd ready{device_->fd, POLLIN, 0};
-        if (poll(&ready, 1, 50) <= 0) continue;
-        std::array<input_event, 64> packet;
-        const ssize_t bytes = read(device_->fd, packet.data(), sizeof packet);
-        if (bytes < 0 && (errno == EAGAIN || errno == EINTR)) continue;
-        if (bytes <= 0) {
-            const HostTime now = clock_.now();
-            device_.reset();
-            connected_ = false;
-            ring_.push({ControllerEventKind::disconnected, {}, now, Duration::from_ms(50)});
-            search_at = now + search_interval_;
-            continue;
-        }
-        for (std::size_t i = 0; i < static_cast<std::size_t>(bytes) / sizeof(input_event); ++i)
-            if (!device_->decoder.decode(packet[i], events))
-                device_->decoder.resynchronise(read_state(device_->fd), clock_.now(), events);
-        publish();
-    }
-}
+    : PadThread(clock, search_interval, std::make_unique<EvdevFinder>(clock)) {}
 
 }  // namespace parafovea

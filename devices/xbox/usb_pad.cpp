@@ -3,14 +3,21 @@
 
 #include <libusb-1.0/libusb.h>
 
+#include <algorithm>
 #include <array>
+#include <memory>
 #include <optional>
+#include <span>
 #include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "devices/xbox/xbox_report.h"
 
 namespace parafovea {
 namespace {
 
-constexpr unsigned kTransferTimeout_ms = 100;
+constexpr unsigned kSendTimeout_ms = 100;
 
 // The part of a configuration that is the pad itself.
 struct PadInterface {
@@ -83,42 +90,125 @@ const char* name_of(UsbPadKind kind) {
     return kind == UsbPadKind::xbox360 ? "Xbox 360 pad" : "Xbox One pad";
 }
 
-}  // namespace
-
-struct UsbPad::Context {
-    Context() {
+struct UsbContext {
+    UsbContext() {
         if (libusb_init(&usb) != 0) throw std::runtime_error("libusb cannot start; is /dev/bus/usb there?");
     }
-    Context(const Context&) = delete;
-    Context& operator=(const Context&) = delete;
-    ~Context() { libusb_exit(usb); }
+    UsbContext(const UsbContext&) = delete;
+    UsbContext& operator=(const UsbContext&) = delete;
+    ~UsbContext() { libusb_exit(usb); }
 
     libusb_context* usb = nullptr;
 };
 
-struct UsbPad::Device {
-    Device(libusb_device_handle* h, PadInterface p) : handle(h), pad(p) {}
-    Device(const Device&) = delete;
-    Device& operator=(const Device&) = delete;
-    ~Device() {
-        libusb_release_interface(handle, pad.number);  // gives the kernel its driver back
-        libusb_close(handle);
+class OpenUsbPad final : public OpenPad {
+  public:
+    OpenUsbPad(Clock& clock, libusb_device_handle* handle, const PadInterface& pad)
+        : clock_(clock), handle_(handle), pad_(pad) {
+        if (pad_.kind == UsbPadKind::gip)
+            for (const auto& message : gip_.start()) send(message);
+        // The first report of a 360 pad is as true as any other; nothing is held down before it.
+        state_known_ = pad_.kind == UsbPadKind::xbox360;
+    }
+    OpenUsbPad(const OpenUsbPad&) = delete;
+    OpenUsbPad& operator=(const OpenUsbPad&) = delete;
+    ~OpenUsbPad() override {
+        libusb_release_interface(handle_, pad_.number);  // gives the kernel its driver back
+        libusb_close(handle_);
     }
 
+    bool read(std::vector<ControllerEvent>& events) override {
+        std::array<std::uint8_t, 1024> buffer;
+        const std::size_t wanted = std::min(buffer.size(), std::max<std::size_t>(pad_.packet_bytes, 32));
+        int received = 0;
+        const int error = libusb_interrupt_transfer(handle_, pad_.in, buffer.data(), static_cast<int>(wanted),
+                                                    &received, kPadReadTimeout_ms);
+        const HostTime arrival = clock_.now();
+        // A time-out may still have brought data.
+        if (received > 0) take(std::span(buffer).first(static_cast<std::size_t>(received)), arrival, events);
+        return error == 0 || error == LIBUSB_ERROR_TIMEOUT || error == LIBUSB_ERROR_INTERRUPTED ||
+               error == LIBUSB_ERROR_OVERFLOW;
+    }
+
+    std::string description() const override {
+        return std::string(name_of(pad_.kind)) + " through libusb, stamped on arrival, polled every " +
+               std::to_string(pad_.interval.ns / 1000) + " us";
+    }
+
+  private:
     void send(const GipConnection::Message& message) {
-        if (pad.out == 0) return;
+        if (pad_.out == 0) return;
         GipConnection::Message copy = message;
         int sent = 0;
-        libusb_interrupt_transfer(handle, pad.out, copy.data(), static_cast<int>(copy.size()), &sent,
-                                  kTransferTimeout_ms);
+        libusb_interrupt_transfer(handle_, pad_.out, copy.data(), static_cast<int>(copy.size()), &sent,
+                                  kSendTimeout_ms);
     }
 
-    libusb_device_handle* handle;
-    PadInterface pad;
-    GipConnection gip;
-    PadState state;
-    bool state_known = false;
+    void take(std::span<const std::uint8_t> transfer, HostTime arrival,
+              std::vector<ControllerEvent>& events) {
+        std::vector<PadState> states;
+        if (pad_.kind == UsbPadKind::xbox360) {
+            if (const auto state = decode_xbox360(transfer)) states.push_back(*state);
+        } else {
+            GipConnection::Received received = gip_.receive(transfer);
+            for (const auto& message : received.replies) send(message);
+            if (received.announced) state_known_ = false;
+            states = std::move(received.states);
+        }
+        for (const PadState& state : states) {
+            if (state_known_) append_changes(state_, state, arrival, pad_.interval, events);
+            state_ = state;
+            state_known_ = true;
+        }
+    }
+
+    Clock& clock_;
+    libusb_device_handle* handle_;
+    PadInterface pad_;
+    GipConnection gip_;
+    PadState state_;
+    bool state_known_ = false;
 };
+
+class UsbPadFinder final : public PadFinder {
+  public:
+    explicit UsbPadFinder(Clock& clock) : clock_(clock) {}
+
+    std::unique_ptr<OpenPad> open() override {
+        std::unique_ptr<OpenPad> opened;
+        int error = 0;
+        bool seen = false;
+        for_each_pad(context_.usb, [&](libusb_device* device, const PadInterface& pad) {
+            seen = true;
+            libusb_device_handle* handle = nullptr;
+            error = libusb_open(device, &handle);
+            if (error != 0) return false;
+            // A system without kernel drivers says no, which is fine.
+            libusb_set_auto_detach_kernel_driver(handle, 1);
+            error = libusb_claim_interface(handle, pad.number);
+            if (error != 0) {
+                libusb_close(handle);
+                return false;
+            }
+            opened = std::make_unique<OpenUsbPad>(clock_, handle, pad);
+            return true;
+        });
+        if (!seen)
+            throw std::runtime_error(
+                "no wired Xbox pad is connected; plug one in, or see `parafovea devices`");
+        if (!opened)
+            throw std::runtime_error(
+                std::string("the wired Xbox pad cannot be opened (") + libusb_error_name(error) +
+                "); install the udev rules (see `parafovea devices`) or end the program that holds it");
+        return opened;
+    }
+
+  private:
+    Clock& clock_;
+    UsbContext context_;
+};
+
+}  // namespace
 
 std::vector<FoundUsbPad> list_usb_pads() {
     std::vector<FoundUsbPad> found;
@@ -138,106 +228,6 @@ std::vector<FoundUsbPad> list_usb_pads() {
 }
 
 UsbPad::UsbPad(Clock& clock, Duration search_interval)
-    : clock_(clock), search_interval_(search_interval), context_(std::make_unique<Context>()) {
-    device_ = open();
-    connected_ = true;
-    thread_ = std::jthread([this](std::stop_token stop) { run(stop); });
-}
-
-UsbPad::~UsbPad() = default;
-
-std::unique_ptr<UsbPad::Device> UsbPad::open() {
-    std::unique_ptr<Device> opened;
-    int error = 0;
-    bool seen = false;
-    for_each_pad(context_->usb, [&](libusb_device* device, const PadInterface& pad) {
-        seen = true;
-        libusb_device_handle* handle = nullptr;
-        error = libusb_open(device, &handle);
-        if (error != 0) return false;
-        libusb_set_auto_detach_kernel_driver(handle,
-                                             1);  // a system without kernel drivers says no, which is fine
-        error = libusb_claim_interface(handle, pad.number);
-        if (error != 0) {
-            libusb_close(handle);
-            return false;
-        }
-        opened = std::make_unique<Device>(handle, pad);
-        return true;
-    });
-    if (!seen)
-        throw std::runtime_error("no wired Xbox pad is connected; plug one in, or see `parafovea devices`");
-    if (!opened)
-        throw std::runtime_error(
-            std::string("the wired Xbox pad cannot be opened (") + libusb_error_name(error) +
-            "); install the udev rules (see `parafovea devices`) or end the program that holds it");
-
-    if (opened->pad.kind == UsbPadKind::gip)
-        for (const auto& message : opened->gip.start()) opened->send(message);
-    // The first report of a 360 pad is as true as any other; nothing is held down before it.
-    opened->state_known = opened->pad.kind == UsbPadKind::xbox360;
-    if (description_.empty())
-        description_ = std::string(name_of(opened->pad.kind)) +
-                       " through libusb, stamped on arrival, polled every " +
-                       std::to_string(opened->pad.interval.ns / 1000) + " us";
-    return opened;
-}
-
-void UsbPad::run(std::stop_token stop) {
-    HostTime search_at = clock_.now();
-    while (!stop.stop_requested()) {
-        if (!device_) {
-            std::this_thread::sleep_for(std::chrono::milliseconds(10));
-            if (clock_.now() < search_at) continue;
-            search_at = clock_.now() + search_interval_;
-            try {
-                device_ = open();
-                connected_ = true;
-                ring_.push({ControllerEventKind::connected, {}, clock_.now(), search_interval_});
-            } catch (const std::runtime_error&) {
-                // Still unplugged: try again.
-            }
-            continue;
-        }
-        std::array<std::uint8_t, 1024> buffer;
-        const std::size_t wanted =
-            std::min(buffer.size(), std::max<std::size_t>(device_->pad.packet_bytes, 32));
-        int received = 0;
-        const int error = libusb_interrupt_transfer(device_->handle, device_->pad.in, buffer.data(),
-                                                    static_cast<int>(wanted), &received, kTransferTimeout_ms);
-        const HostTime arrival = clock_.now();
-        // A time-out may still have brought data.
-        if (received > 0)
-            handle(*device_, std::span(buffer).first(static_cast<std::size_t>(received)), arrival);
-        if (error != 0 && error != LIBUSB_ERROR_TIMEOUT && error != LIBUSB_ERROR_INTERRUPTED &&
-            error != LIBUSB_ERROR_OVERFLOW) {
-            device_.reset();
-            connected_ = false;
-            ring_.push(
-                {ControllerEventKind::disconnected, {}, arrival, Duration::from_ms(kTransferTimeout_ms)});
-            search_at = arrival + search_interval_;
-        }
-    }
-    device_.reset();
-}
-
-void UsbPad::handle(Device& device, std::span<const std::uint8_t> transfer, HostTime arrival) {
-    std::vector<PadState> states;
-    if (device.pad.kind == UsbPadKind::xbox360) {
-        if (const auto state = decode_xbox360(transfer)) states.push_back(*state);
-    } else {
-        GipConnection::Received received = device.gip.receive(transfer);
-        for (const auto& message : received.replies) device.send(message);
-        if (received.announced) device.state_known = false;
-        states = std::move(received.states);
-    }
-    std::vector<ControllerEvent> events;
-    for (const PadState& state : states) {
-        if (device.state_known) append_changes(device.state, state, arrival, device.pad.interval, events);
-        device.state = state;
-        device.state_known = true;
-    }
-    for (const ControllerEvent& event : events) ring_.push(event);
-}
+    : PadThread(clock, search_interval, std::make_unique<UsbPadFinder>(clock)) {}
 
 }  // namespace parafovea

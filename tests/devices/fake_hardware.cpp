@@ -46,6 +46,22 @@ void remove_node(UMockdevTestbed* testbed, const std::string& node) {
     g_free(root);
 }
 
+// Nobody can find the device any more, and then who has its node open sees it hang up: the far end of the
+// node's terminal closes. The number of that end stays taken, because umockdev will close it.
+void hang_up(UMockdevTestbed* testbed, const std::string& node, const std::vector<std::string>& paths,
+             UMockdevIoctlBase* handler) {
+    const int fd = umockdev_testbed_get_dev_fd(testbed, node.c_str());
+    for (const std::string& path : paths) umockdev_testbed_remove_device(testbed, ("/sys" + path).c_str());
+    remove_node(testbed, node);
+    const int nothing = ::open("/dev/null", O_RDWR | O_CLOEXEC);
+    ::dup2(nothing, fd);
+    ::close(nothing);
+    // Let the program notice before its ioctl server goes.
+    ::usleep(200'000);
+    umockdev_testbed_detach_ioctl(testbed, node.c_str(), nullptr);
+    g_object_unref(handler);
+}
+
 // The memory that the ioctl's argument points to.
 UMockdevIoctlData* argument(UMockdevIoctlClient* client, std::size_t size) {
     return umockdev_ioctl_data_resolve(umockdev_ioctl_client_get_arg(client), 0, size, nullptr);
@@ -84,19 +100,7 @@ void FakeHidDevice::plug() {
 }
 
 void FakeHidDevice::unplug() {
-    // Nobody can find it any more, and then who has it open sees it hang up: the far end of its terminal
-    // closes. The number of that end stays taken, because umockdev will close it.
-    const int fd = umockdev_testbed_get_dev_fd(testbed_, node_.c_str());
-    umockdev_testbed_remove_device(testbed_, ("/sys" + hidraw_path_).c_str());
-    umockdev_testbed_remove_device(testbed_, ("/sys" + hid_path_).c_str());
-    remove_node(testbed_, node_);
-    const int nothing = ::open("/dev/null", O_RDWR | O_CLOEXEC);
-    ::dup2(nothing, fd);
-    ::close(nothing);
-    // Let the program notice before its ioctl server goes.
-    ::usleep(200'000);
-    umockdev_testbed_detach_ioctl(testbed_, node_.c_str(), nullptr);
-    g_object_unref(handler_);
+    hang_up(testbed_, node_, {hidraw_path_, hid_path_}, handler_);
     plugged_ = false;
 }
 
@@ -156,15 +160,7 @@ void FakeInputDevice::plug() {
 }
 
 void FakeInputDevice::unplug() {
-    const int fd = umockdev_testbed_get_dev_fd(testbed_, node_.c_str());
-    umockdev_testbed_remove_device(testbed_, ("/sys" + path_).c_str());
-    remove_node(testbed_, node_);
-    const int nothing = ::open("/dev/null", O_RDWR | O_CLOEXEC);
-    ::dup2(nothing, fd);
-    ::close(nothing);
-    ::usleep(200'000);
-    umockdev_testbed_detach_ioctl(testbed_, node_.c_str(), nullptr);
-    g_object_unref(handler_);
+    hang_up(testbed_, node_, {path_}, handler_);
     plugged_ = false;
 }
 

@@ -1,6 +1,7 @@
 // hidapi and libusb sources against fake hardware, plugged, pulled and plugged in again. Runs under
 // umockdev-wrapper.
 #include <gmock/gmock.h>
+#include <linux/input.h>
 
 #include <chrono>
 #include <cstring>
