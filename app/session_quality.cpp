@@ -2,6 +2,7 @@
 #include "app/session_quality.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 namespace parafovea {
@@ -96,6 +97,19 @@ void RecordingCount::finish() {
         finished_.push_back(std::move(quality));
     }
     open_.clear();
+}
+
+void RecordingCount::add(const RecordingCount& later) {
+    assert(open_.empty() && later.open_.empty());
+    for (std::size_t i = 0; i < map_.counts.size(); ++i) map_.counts[i] += later.map_.counts[i];
+    if (frames_.refresh_hz <= 0) frames_.refresh_hz = later.frames_.refresh_hz;
+    if (frames_.counts.size() < later.frames_.counts.size())
+        frames_.counts.resize(later.frames_.counts.size(), 0);
+    for (std::size_t i = 0; i < later.frames_.counts.size(); ++i)
+        frames_.counts[i] += later.frames_.counts[i];
+    finished_.insert(finished_.end(), later.finished_.begin(), later.finished_.end());
+    any_gaze_ = any_gaze_ || later.any_gaze_;
+    any_frame_ = any_frame_ || later.any_frame_;
 }
 
 StudyRecordings RecordingCount::recordings() const {

@@ -26,6 +26,9 @@ class RecordingCount {
     // The session's file is done: one row per testing session is added to `recordings().sessions`.
     void finish();
 
+    // Adds what another count, of sessions that come after this one's, has finished.
+    void add(const RecordingCount& later);
+
     // What came so far; gaze and frames absent where none was recorded.
     StudyRecordings recordings() const;
 

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "analysis/inventory.h"
+#include "analysis/parallel.h"
 #include "app/session_quality.h"
 #include "study/exclusion.h"
 #include "study/session_log_reader.h"
@@ -92,6 +93,36 @@ SessionStamp stamp_of(const SessionHead& session, const fs::path& file) {
     return stamp;
 }
 
+constexpr std::size_t kSessionsAtATime = 64;  // in memory, about 100 kB each
+
+// What one file adds to a study.
+struct SessionPart {
+    std::string seed;  // whose and which
+    bool simulated_people = false;
+    RecordingCount recorded;
+    std::vector<Response> responses;
+};
+
+SessionPart read_part(const fs::path& file, const ExclusionRules& rules) {
+    const SessionRows session = read_session(file);
+    SessionSurvey survey(file);
+    SessionPart part;
+    part.seed = session.facts.participant + " " + std::to_string(session.plan.seed);
+    part.simulated_people = session.facts.simulated_people;
+    const std::string excluded = joined(exclusion_reasons(session, rules));
+    part.recorded.begin(session);
+    for (const TrialRow& trial : session.trials) {
+        if (!is_testing_trial(trial)) continue;
+        Response response = response_of(trial);
+        response.participant = session.facts.participant;
+        if (response.excluded_reason.empty()) response.excluded_reason = excluded;
+        response.gaze_loss = part.recorded.add(trial, survey);
+        part.responses.push_back(std::move(response));
+    }
+    part.recorded.finish();
+    return part;
+}
+
 }  // namespace
 
 std::vector<fs::path> input_files(const std::vector<std::string>& inputs) {
@@ -118,13 +149,10 @@ std::vector<fs::path> input_files(const std::vector<std::string>& inputs) {
 
 SessionList list_sessions(const std::vector<fs::path>& files) {
     SessionList list;
+    std::vector<SessionHead> heads(files.size());
+    parallel_for(files.size(), [&](std::size_t i) { heads[i] = SessionSurvey(files[i]).head(); });
     std::vector<SessionStamp> stamps;
-    std::vector<SessionHead> heads;
-    for (const fs::path& file : files) {
-        heads.push_back(SessionSurvey(file).head());
-        stamps.push_back(stamp_of(heads.back(), file));
-        heads.back().protocol_text.shrink_to_fit();
-    }
+    for (std::size_t i = 0; i < files.size(); ++i) stamps.push_back(stamp_of(heads[i], files[i]));
     const Inventory inventory = take_inventory(stamps);
     for (const InventoryProblem& problem : inventory.problems) list.problems.push_back(problem.text);
     for (const std::size_t index : inventory.usable)
@@ -149,34 +177,30 @@ StudyData read_study(const std::vector<std::string>& inputs,
         data.description.provenance.emplace_back("responses table", file.filename().string());
     }
 
-    // Take stock of all sessions before any is used, then read one after the other.
+    // Take stock of all sessions before any is used, then read a few at a time, and hand them on in order.
     const SessionList list = list_sessions(sessions);
     data.problems = list.problems;
     RecordingCount recorded;
     std::string seeds;
     std::optional<Protocol> protocol;  // of all the sessions that are used
-    for (const auto& [file, head] : list.sessions) {
-        if (!protocol) {
-            protocol = parse_protocol(head.protocol_text, head.protocol_file);
-            describe(head, *protocol, data.description);
+    if (!list.sessions.empty()) {
+        const SessionHead& head = list.sessions.front().head;
+        protocol = parse_protocol(head.protocol_text, head.protocol_file);
+        describe(head, *protocol, data.description);
+    }
+    std::vector<SessionPart> parts;
+    for (std::size_t begin = 0; begin < list.sessions.size(); begin += parts.size()) {
+        parts.assign(std::min(kSessionsAtATime, list.sessions.size() - begin), {});
+        parallel_for(parts.size(), [&](std::size_t i) {
+            parts[i] = read_part(list.sessions[begin + i].file, protocol->exclusion);
+        });
+        for (const SessionPart& part : parts) {
+            if (part.simulated_people) data.description.data_origin = "simulated participants";
+            seeds += (seeds.empty() ? "" : ", ") + part.seed;
+            recorded.add(part.recorded);
+            for (const Response& response : part.responses) on_response(response);
+            responses += static_cast<std::int64_t>(part.responses.size());
         }
-        if (head.facts.simulated_people) data.description.data_origin = "simulated participants";
-        const SessionRows session = read_session(file);
-        SessionSurvey survey(file);
-        seeds +=
-            (seeds.empty() ? "" : ", ") + session.facts.participant + " " + std::to_string(session.plan.seed);
-        const std::string excluded = joined(exclusion_reasons(session, protocol->exclusion));
-        recorded.begin(session);
-        for (const TrialRow& trial : session.trials) {
-            if (!is_testing_trial(trial)) continue;
-            Response response = response_of(trial);
-            response.participant = session.facts.participant;
-            if (response.excluded_reason.empty()) response.excluded_reason = excluded;
-            response.gaze_loss = recorded.add(trial, survey);
-            on_response(response);
-            ++responses;
-        }
-        recorded.finish();
     }
     data.recordings = recorded.recordings();
     if (!seeds.empty()) data.description.provenance.emplace_back("seeds", seeds);

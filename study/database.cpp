@@ -89,8 +89,13 @@ bool Statement::step() {
 
 void Statement::run() {
     step();
+    reset();
+}
+
+Statement& Statement::reset() {
     sqlite3_reset(statement_);
     bound_ = 0;
+    return *this;
 }
 
 bool Statement::is_null(int column) const {
@@ -119,7 +124,8 @@ std::optional<double> Statement::optional_real(int column) const {
 }
 
 Database::Database(const std::filesystem::path& path, Mode mode, const char* vfs) : path_(path.string()) {
-    const int flags = mode == Mode::read ? SQLITE_OPEN_READONLY : SQLITE_OPEN_READWRITE;
+    // A reader belongs to one thread, which then need not lock at every column of every row.
+    const int flags = mode == Mode::read ? SQLITE_OPEN_READONLY | SQLITE_OPEN_NOMUTEX : SQLITE_OPEN_READWRITE;
     const int code = sqlite3_open_v2(path_.c_str(), &handle_, flags, vfs);
     if (code == SQLITE_OK) {
         sqlite3_busy_timeout(handle_, 5000);

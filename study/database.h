@@ -42,6 +42,8 @@ class Statement {
     bool step();
     // Runs a statement that gives no rows, and makes it ready to be bound again.
     void run();
+    // Makes it ready to be bound and stepped again, with rows left or not.
+    Statement& reset();
 
     bool is_null(int column) const;
     std::int64_t integer(int column) const;

@@ -60,13 +60,14 @@ std::vector<CalibrationRecord> read_calibrations(Database& database) {
     return calibrations;
 }
 
-std::vector<IntervalRecord> read_intervals(Database& database, std::int64_t trial_id) {
+constexpr const char* kIntervalsOfTrial =
+    "SELECT phase, intended_frames, presented_frames, first_display_host_ns, last_display_host_ns, "
+    "end_host_ns, "
+    "time_source, missed_vsyncs, longest_frame_ns FROM interval WHERE trial_id = ? ORDER BY phase";
+
+std::vector<IntervalRecord> read_intervals(Statement& row, std::int64_t trial_id) {
     std::vector<IntervalRecord> intervals;
-    Statement row = database.prepare(
-        "SELECT phase, intended_frames, presented_frames, first_display_host_ns, last_display_host_ns, "
-        "end_host_ns, "
-        "time_source, missed_vsyncs, longest_frame_ns FROM interval WHERE trial_id = ? ORDER BY phase");
-    row.bind(trial_id);
+    row.reset().bind(trial_id);
     while (row.step()) {
         IntervalRecord interval;
         interval.phase = static_cast<Phase>(row.integer(0));
@@ -89,6 +90,9 @@ std::vector<TrialRow> read_trials(Database& database, const TrialPlan& plan) {
         "SELECT trial_id, trial, attempt, started_host_ns, interrupted, superseded, identical, button, "
         "host_ns, reaction_ns, "
         "level FROM trial LEFT JOIN response USING (trial_id) ORDER BY trial_id");
+    Statement rules =
+        database.prepare("SELECT detail FROM flag WHERE kind = 'invalid' AND trial_id = ? ORDER BY flag");
+    Statement intervals = database.prepare(kIntervalsOfTrial);
     while (row.step()) {
         TrialRow trial;
         const std::int64_t trial_id = row.integer(0);
@@ -104,11 +108,9 @@ std::vector<TrialRow> read_trials(Database& database, const TrialPlan& plan) {
                                   button_from_name(row.text(7)).value_or(Button::a),
                                   {row.integer(8)},
                                   {row.integer(9)}};
-        Statement rules =
-            database.prepare("SELECT detail FROM flag WHERE kind = 'invalid' AND trial_id = ? ORDER BY flag");
-        rules.bind(trial_id);
+        rules.reset().bind(trial_id);
         while (rules.step()) trial.invalid.push_back(rules.text(0));
-        trial.intervals = read_intervals(database, trial_id);
+        trial.intervals = read_intervals(intervals, trial_id);
         trials.push_back(std::move(trial));
     }
     return trials;

@@ -8,6 +8,15 @@
 #include "study/session_rows.h"
 
 namespace parafovea {
+namespace {
+
+// A statement that is prepared once and run for every showing.
+Statement& prepared(Database& database, std::unique_ptr<Statement>& statement, const char* sql) {
+    if (!statement) statement = std::make_unique<Statement>(database.prepare(sql));
+    return statement->reset();
+}
+
+}  // namespace
 
 SessionSurvey::SessionSurvey(const std::filesystem::path& path) : database_(open_for_reading(path)) {}
 
@@ -37,7 +46,8 @@ SessionHead SessionSurvey::head() {
 
 std::vector<FrameTime> SessionSurvey::frame_times(int trial_number, int attempt) {
     std::vector<FrameTime> frames;
-    Statement row = database_->prepare(
+    Statement& row = prepared(
+        *database_, frames_,
         "SELECT phase, display_host_ns, gaze_age_ns FROM trial JOIN frame USING (trial_id) WHERE trial = ? "
         "AND attempt = ? ORDER BY frame");
     row.bind_all(trial_number, attempt);
@@ -51,10 +61,10 @@ std::vector<FrameTime> SessionSurvey::frame_times(int trial_number, int attempt)
 
 std::vector<GazeDirection> SessionSurvey::gaze_directions(int trial_number, int attempt) {
     std::vector<GazeDirection> samples;
-    Statement row = database_->prepare(
+    Statement& row = prepared(
+        *database_, gaze_,
         "SELECT host_ns, azimuth_deg, elevation_deg FROM trial JOIN gaze USING (trial_id) WHERE trial = ? "
-        "AND "
-        "attempt = ? ORDER BY n");
+        "AND attempt = ? ORDER BY n");
     row.bind_all(trial_number, attempt);
     while (row.step()) {
         GazeDirection sample{{row.integer(0)}, {}};

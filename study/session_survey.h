@@ -16,6 +16,7 @@
 namespace parafovea {
 
 class Database;
+class Statement;
 
 // Whose session of which study it is.
 struct SessionHead {
@@ -39,7 +40,8 @@ struct GazeDirection {
     std::optional<DirectionDeg> direction;  // absent: blink or loss
 };
 
-// One file held open. Throws std::runtime_error where the file is not a session or is damaged.
+// One file held open, for one thread at a time. Throws std::runtime_error where the file is not a session or
+// is damaged.
 class SessionSurvey {
   public:
     explicit SessionSurvey(const std::filesystem::path& path);
@@ -53,6 +55,7 @@ class SessionSurvey {
 
   private:
     std::unique_ptr<Database> database_;
+    std::unique_ptr<Statement> frames_, gaze_;  // prepared at their first use
 };
 
 }  // namespace parafovea

@@ -1,10 +1,12 @@
 // From session files to the analysis: every frame and every lost sample is counted, copies are found,
-// sessions are read one at a time.
+// sessions read together give what each gives alone.
 #include "app/session_responses.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <numeric>
+#include <set>
 
 #include "study/session_log_reader.h"
 #include "tests/study/lab.h"
@@ -86,6 +88,47 @@ TEST(SessionResponses, each_trial_carries_its_share_of_lost_gaze_and_each_sessio
     const GazeHeatMap& map = *data.recordings.gaze;
     // The eye looks at (0.5, 0.25) degrees: one cell, column 31, the row just above the middle.
     EXPECT_EQ(map.counts[29 * 60 + 31], std::accumulate(map.counts.begin(), map.counts.end(), 0.0));
+}
+
+TEST(SessionResponses, sessions_read_together_give_in_the_order_of_the_files_what_each_gives_alone) {
+    const test::TemporaryFolder folder;
+    constexpr int kSessions = 5;
+    std::vector<std::string> files;
+    for (int i = 0; i < kSessions; ++i) {
+        files.push_back((folder / (std::to_string(i) + ".sqlite")).string());
+        record(files.back(), "P" + std::to_string(i), {100 + 7 * i, 300 + 11 * i});
+    }
+    const auto line = [](const Response& response) {
+        return response.participant + " " + std::to_string(response.session) + " " +
+               std::to_string(response.trial) + " " + std::to_string(response.identical) + " " +
+               std::to_string(response.dropped_frames.value_or(-1)) + " " +
+               std::to_string(response.gaze_loss.value_or(-1));
+    };
+    std::vector<std::string> alone, together;
+    std::vector<std::int64_t> frames;
+    std::vector<double> gaze(60 * 60);
+    std::vector<std::string> sessions;
+    for (const std::string& file : files) {
+        const StudyData data =
+            read_study({file}, [&](const Response& response) { alone.push_back(line(response)); });
+        frames.resize(std::max(frames.size(), data.recordings.frames->counts.size()));
+        for (std::size_t i = 0; i < data.recordings.frames->counts.size(); ++i)
+            frames[i] += data.recordings.frames->counts[i];
+        for (std::size_t i = 0; i < gaze.size(); ++i) gaze[i] += data.recordings.gaze->counts[i];
+        for (const SessionQuality& quality : data.recordings.sessions)
+            sessions.push_back(quality.participant + " " + std::to_string(quality.missed));
+    }
+    const StudyData data =
+        read_study(files, [&](const Response& response) { together.push_back(line(response)); });
+    EXPECT_EQ(alone.size(), kSessions * 12u);
+    EXPECT_EQ(together, alone);
+    EXPECT_EQ(data.recordings.frames->counts, frames);
+    EXPECT_EQ(data.recordings.frames->refresh_hz, 100);
+    EXPECT_EQ(data.recordings.gaze->counts, gaze);
+    std::vector<std::string> of_all;
+    for (const SessionQuality& quality : data.recordings.sessions)
+        of_all.push_back(quality.participant + " " + std::to_string(quality.missed));
+    EXPECT_EQ(of_all, sessions);
 }
 
 TEST(SessionResponses, a_copy_is_found_and_the_planned_number_of_participants_is_handed_on) {
