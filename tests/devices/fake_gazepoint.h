@@ -20,6 +20,8 @@
 #include <string>
 #include <thread>
 
+#include "devices/time.h"
+
 namespace parafovea {
 
 // Accepts one client after the other, waits to be enabled, then streams 200 records a second: gaze at three
@@ -41,6 +43,11 @@ class FakeGazepoint {
     void hang_up() { hang_up_ = true; }
     // Hangs up and lets whoever connects wait until told otherwise.
     void set_away(bool away) { away_ = away; }
+
+    // When a record of this time was sent, on the host's clock, to a hundredth of a millisecond.
+    HostTime sent_at(DeviceTime time) const {
+        return HostTime{began_.time_since_epoch().count()} + (time - DeviceTime{kEpochNs});
+    }
 
     // The device times of all records sent, ns.
     std::set<std::int64_t> times_ns() const {
@@ -92,7 +99,7 @@ class FakeGazepoint {
         while (!stop.stop_requested() && !away_ && !hang_up_.exchange(false)) {
             const double t = std::chrono::duration<double>(std::chrono::steady_clock::now() - began_).count();
             char time[32], line[256];
-            std::snprintf(time, sizeof time, "%.5f", 100 + t);
+            std::snprintf(time, sizeof time, "%.5f", kEpochNs * 1e-9 + t);
             const int size = std::snprintf(line, sizeof line,
                                            "<ACK ID=\"X\" />\r\n<REC CNT=\"%d\" TIME=\"%s\" "
                                            "BPOGX=\"0.75\" BPOGY=\"0.25\" BPOGV=\"%d\" />\r\n",
@@ -108,6 +115,8 @@ class FakeGazepoint {
             std::this_thread::sleep_for(std::chrono::milliseconds(5));
         }
     }
+
+    static constexpr std::int64_t kEpochNs = 100'000'000'000;  // what the server's clock reads at first
 
     int listener_ = -1;
     std::uint16_t port_ = 0;
