@@ -8,7 +8,8 @@
 namespace parafovea {
 
 Minimum nelder_mead(const std::function<double(std::span<const double>)>& function,
-                    std::span<const double> start, double step, double tolerance, int evaluations) {
+                    std::span<const double> start, double step, double tolerance, int evaluations,
+                    double precision) {
     const std::size_t dimensions = start.size();
     assert(dimensions > 0);
     std::vector<Minimum> corners;
@@ -35,7 +36,7 @@ Minimum nelder_mead(const std::function<double(std::span<const double>)>& functi
             double size = 0.0;
             for (std::size_t j = 0; j < dimensions; ++j)
                 size = std::max(size, std::abs(corners.back().at[j] - corners.front().at[j]));
-            if (size < 1e-7) break;
+            if (size < precision) break;
         }
         std::fill(centre.begin(), centre.end(), 0.0);
         for (std::size_t i = 0; i < dimensions; ++i)

@@ -184,8 +184,11 @@ std::optional<PsychometricFit> fit_psychometric(std::span<const PsychometricLeve
     };
 
     // Search from a few places, or from the one given, then polish the best.
+    // A start is given where many fits of like data are wanted, whose spread is a thousand times the
+    // precision asked of each.
+    const double tolerance = options.start ? 1e-6 : 1e-11, precision = options.start ? 1e-4 : 1e-7;
     Minimum best{{}, kInfinity};
-    if (options.start) best = nelder_mead(cost, scaled.numbers(*options.start), 0.1, 1e-6, 500);
+    if (options.start) best = nelder_mead(cost, scaled.numbers(*options.start), 0.1, 1e-6, 500, precision);
     for (const auto& [place, width] :
          {std::pair{0.5, -0.4}, std::pair{0.25, -1.0}, std::pair{0.8, -0.8}, std::pair{0.9, -0.1}}) {
         if (options.start) break;
@@ -197,10 +200,9 @@ std::optional<PsychometricFit> fit_psychometric(std::span<const PsychometricLeve
         Minimum found = nelder_mead(cost, start, 0.1, 1e-6, 500);
         if (found.value < best.value) best = std::move(found);
     }
-    const double tolerance = options.start ? 1e-6 : 1e-11;  // a start is given where many fits are wanted
     for (int repeat = 0; repeat < 3; ++repeat) {
         const double before = best.value;
-        best = nelder_mead(cost, best.at, repeat == 0 ? 0.05 : 0.02, tolerance, 1500);
+        best = nelder_mead(cost, best.at, repeat == 0 ? 0.05 : 0.02, tolerance, 1500, precision);
         if (before - best.value < 100 * tolerance) break;
     }
 

@@ -18,8 +18,9 @@ struct PsychometricFitOptions {
     double credibility = 0.95;
     int draws = 10'000;  // from the posterior; 0 for no intervals
     std::uint64_t seed = 1;
-    std::optional<PsychometricParameters> start;  // where to search, for data known to be like others;
-                                                  // several places when absent
+    // Where to search, to 1e-4 of the range of x: for data known to be like others. When absent, several
+    // places, to 1e-7.
+    std::optional<PsychometricParameters> start;
 };
 
 // An end is absent when that end of the posterior never crosses the criterion.
