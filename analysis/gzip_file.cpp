@@ -22,7 +22,9 @@ constexpr int kGzipWindow = 15 + 16;  // largest window, with gzip's header
 void write_gzip_file(const std::filesystem::path& path, const std::string& text) {
     z_stream stream{};
     if (text.size() > std::numeric_limits<uInt>::max()) fail(path, "more than 4 GB for one compressed file");
-    if (deflateInit2(&stream, 6, Z_DEFLATED, kGzipWindow, 8, Z_DEFAULT_STRATEGY) != Z_OK)
+    // Columns of numbers repeat by chance only: long searches for matches gain 2 % in size at 2.5 times the
+    // time.
+    if (deflateInit2(&stream, 4, Z_DEFLATED, kGzipWindow, 8, Z_FILTERED) != Z_OK)
         fail(path, "zlib cannot start");
     std::string packed(deflateBound(&stream, static_cast<uLong>(text.size())), '\0');
     stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(text.data()));

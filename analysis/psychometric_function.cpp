@@ -76,6 +76,7 @@ double log_beta_binomial(std::int64_t k, std::int64_t rest, double a, double b) 
 }
 
 double log_beta_prior(double value) {
+    if (value == 0.0) return std::log(kBetaPrior);
     return std::log(kBetaPrior) + (kBetaPrior - 1.0) * std::log1p(-value);
 }
 
@@ -170,7 +171,11 @@ double PsychometricPosterior::log_prior(const PsychometricParameters& p) const {
     else if (p.width > span)
         width = (1.0 + std::cos(kPi / 2.0 * (p.width - span) / span)) / 2.0;
 
-    double sum = std::log(threshold) + std::log(width) + log_beta_prior(p.lambda) + log_beta_prior(p.eta);
+    // Both are 1, whose logarithm is 0, nearly everywhere.
+    double sum = threshold == 1.0 ? 0.0 : std::log(threshold);
+    if (width != 1.0) sum += std::log(width);
+    sum += log_beta_prior(p.lambda);
+    sum += log_beta_prior(p.eta);
     if (model_.asymptotes == Asymptotes::free) sum += log_beta_prior(p.gamma);
     if (model_.asymptotes == Asymptotes::equal) sum += log_beta_prior(p.lambda);  // it stands for both
     return sum;
