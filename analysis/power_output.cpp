@@ -140,13 +140,17 @@ std::vector<std::filesystem::path> write_power(const std::vector<PowerPoint>& po
     std::vector<std::filesystem::path> files{out / "power.csv", out / "power.md"};
     if (points.empty() || points[0].sigmas.empty()) return files;
 
-    // One curve per sigma for the first number of sessions and the first effect, with Monte-Carlo error bars.
+    // One curve per sigma for the first number of sessions and the effect nearest to the assumed one, with
+    // Monte-Carlo error bars.
+    double effect = points[0].effect;
+    for (const PowerPoint& point : points)
+        if (std::abs(point.effect - 1.0) < std::abs(effect - 1.0)) effect = point.effect;
     std::string body;
     double most = 0.0;
     for (std::size_t s = 0; s < points[0].sigmas.size(); ++s) {
         body += "$sigma" + std::to_string(s) + " << EOD\n";
         for (const PowerPoint& point : points) {
-            if (point.sessions != points[0].sessions || point.effect != points[0].effect) continue;
+            if (point.sessions != points[0].sessions || point.effect != effect) continue;
             most = std::max(most, static_cast<double>(point.participants));
             const double power = 100.0 * point.sigmas[s].permutation;
             body += std::to_string(point.participants) + " " + fixed_text(power, 3) + " " +
@@ -156,8 +160,7 @@ std::vector<std::filesystem::path> write_power(const std::vector<PowerPoint>& po
         body += "EOD\n";
     }
     body += "set title \"{/:Bold Power with simulated participants}\\n" + std::to_string(points[0].sessions) +
-            " sessions each, effect " + short_text(points[0].effect) + ", " +
-            std::to_string(question.studies) +
+            " sessions each, effect " + short_text(effect) + ", " + std::to_string(question.studies) +
             " studies per point; bars: Monte-Carlo standard error\" left offset graph -0.5,character 0.2\n";
     body +=
         "set border 3 linewidth 0.8 linecolor rgb '#333333'\nset tics nomirror out scale 0.5\nset yrange "

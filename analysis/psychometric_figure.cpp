@@ -95,6 +95,11 @@ std::string psychometric_figure_script(const PsychometricResults& results, const
                     (std::string(series_style(i).colour).substr(1)) + "'\n";
             body += "set arrow 2 from " + fixed_text(*at.value, 4) + ",0 to " + fixed_text(*at.value, 4) +
                     ",criterion_share nohead dashtype (4,4) linewidth 1 linecolor rgb '#333333'\n";
+        } else {
+            const double share = 1.0 - study.identical_criterion;
+            const bool above = psychometric_value(fit.model, fit.best, range.low) > share;
+            note += std::string(above ? ":  more" : ":  fewer") + " than " + general_text(100.0 * share, 3) +
+                    " % at every σ² shown";
         }
         body += "set title \"" + note + "\" offset 0,-0.5\n";
         body += std::string("set xlabel ") +

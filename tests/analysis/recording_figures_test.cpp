@@ -1,4 +1,5 @@
-// The figures of gaze and timing drawn from known recordings, and that of power.
+// The figures of gaze and timing drawn from known recordings, and those of power and of psychometric
+// functions.
 #include "analysis/recording_figures.h"
 
 #include <gtest/gtest.h>
@@ -9,6 +10,7 @@
 #include "analysis/figure.h"
 #include "analysis/gnuplot.h"
 #include "analysis/power.h"
+#include "analysis/psychometric_figure.h"
 #include "tests/analysis/temporary_folder.h"
 
 namespace parafovea {
@@ -112,6 +114,42 @@ TEST(PowerFigure, draws_one_curve_for_each_sigma) {
     for (const char* part : {"participants", "1.4", "1.8", "2.2"})
         EXPECT_NE(svg.find(part), std::string::npos) << part;
     EXPECT_GE(count_of(svg, "gnuplot_plot_"), 4u) << "the line at 80 % and three curves";
+}
+
+TEST(PowerFigure, shows_the_assumed_effect_where_several_were_simulated) {
+    const TemporaryFolder folder;
+    PowerQuestion question;
+    PowerPoint point;
+    point.participants = 18;
+    point.sessions = 2;
+    point.studies = 100;
+    std::vector<PowerPoint> points;
+    for (const double effect : {0.0, 1.0, 2.0}) {
+        point.effect = effect;
+        point.sigmas = {{}};
+        point.sigmas[0].sigma = 1.8;
+        point.sigmas[0].permutation = 0.3 * effect;
+        points.push_back(point);
+    }
+    question.studies = 100;
+    write_power(points, question, folder.path());
+    const std::string svg = text_of(folder.path() / "power.svg");
+    EXPECT_NE(svg.find("2 sessions each, effect 1, 100 studies"), std::string::npos);
+}
+
+TEST(PsychometricFigure, a_panel_whose_curve_never_meets_the_criterion_says_on_which_side_it_stays) {
+    const TemporaryFolder folder;
+    const auto title = [&](std::int64_t different) {
+        PsychometricResults results;
+        const std::vector<PsychometricLevel> levels{
+            {2, 40, different}, {4, 40, different}, {6, 40, different}};
+        PsychometricFitOptions options;
+        options.draws = 100;
+        results.pooled.push_back({std::nullopt, 4.0, *fit_psychometric(levels, options), std::nullopt});
+        return psychometric_figure_script(results, {}, folder.path() / "psychometric");
+    };
+    EXPECT_NE(title(30).find("α = 4:  more than 20 % at every σ² shown"), std::string::npos);
+    EXPECT_NE(title(0).find("α = 4:  fewer than 20 % at every σ² shown"), std::string::npos);
 }
 
 }  // namespace
