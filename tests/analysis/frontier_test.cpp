@@ -212,7 +212,7 @@ TEST(FrontierReport, WritesTablesFigureAndRecommendation) {
             << name;
     const std::string advice = recommendation_markdown(report);
     EXPECT_NE(advice.find("at no visible loss (JOD no lower than 9.700"), std::string::npos) << advice;
-    EXPECT_NE(advice.find("**rings**, k=1, with 20.0 % of the samples and 70.0 % of the time"),
+    EXPECT_NE(advice.find("**rings** (k=1) with 20.0 % of the samples and 70.0 % of the time"),
               std::string::npos)
         << advice;
     EXPECT_NE(advice.find("predictions of a model"), std::string::npos);
@@ -223,8 +223,16 @@ TEST(FrontierReport, WritesTablesFigureAndRecommendation) {
 
 TEST(FrontierReport, SaysSoWhenEverySettingLosesSomethingVisible) {
     FrontierReport report{example(), kAnchor, 0.95, "a test", "a command"};
-    EXPECT_NE(recommendation_markdown(report).find("no measured setting loses nothing visible"),
-              std::string::npos);
+    EXPECT_NE(
+        recommendation_markdown(report).find("no measured setting saves time and loses nothing visible"),
+        std::string::npos);
+}
+
+TEST(FrontierReport, DoesNotRecommendWhatTakesLongerThanFullResolution) {
+    FrontierReport report{example(), kAnchor, 0.8, "a test", "a command"};
+    for (TradeoffRow& row : report.rows)
+        if (row.family == "rings") row.frame_ms = 1.1 * row.full_frame_ms;
+    EXPECT_EQ(recommendation_markdown(report).find("**rings**"), std::string::npos);
 }
 
 }  // namespace
