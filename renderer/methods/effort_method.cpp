@@ -2,7 +2,6 @@
 #include "renderer/methods/effort_method.h"
 
 #include <array>
-#include <span>
 
 #include "renderer/kernel_setting.h"
 #include "renderer/methods/method_parameters.h"
@@ -13,17 +12,7 @@
 namespace parafovea {
 namespace {
 
-std::span<const std::uint32_t> code_for(ShadedThing thing) {
-    switch (thing) {
-        case ShadedThing::meshes:
-            return shader_code::full_meshes;
-        case ShadedThing::primitives:
-            return shader_code::effort_primitives;
-        case ShadedThing::picture:
-            return shader_code::full_picture;
-    }
-    return {};
-}
+const ShadingCode kCode{shader_code::full_meshes, shader_code::effort_primitives, shader_code::full_picture};
 
 std::vector<ShaderConstant> constants_for(const ShadingSource& source, SavedEffort saved) {
     std::vector<ShaderConstant> constants = source.constants;
@@ -49,7 +38,7 @@ EffortMethod::EffortMethod(Gpu& gpu, const ShadingSource& source, VkFormat targe
       set_(gpu, {{0, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER}}),
       block_(gpu, sizeof(shared::EffortFalloff), VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT, BufferPlace::upload),
       layout_(make_pipeline_layout(gpu, {source.layout, set_.layout()}, sizeof(Jitter))),
-      pipeline_(make_fullscreen_pipeline(gpu, code_for(source.thing), layout_.get(), {target_format},
+      pipeline_(make_fullscreen_pipeline(gpu, kCode.of(source.thing), layout_.get(), {target_format},
                                          constants_for(source, saved))) {
     set_.set_buffer(0, block_);
 }

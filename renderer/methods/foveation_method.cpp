@@ -1,7 +1,19 @@
-// What methods share when they record.
+// What methods share.
 #include "renderer/methods/foveation_method.h"
 
 namespace parafovea {
+
+std::span<const std::uint32_t> ShadingCode::of(ShadedThing thing) const {
+    switch (thing) {
+        case ShadedThing::meshes:
+            return meshes;
+        case ShadedThing::primitives:
+            return primitives;
+        case ShadedThing::picture:
+            return picture;
+    }
+    return {};
+}
 
 void push_jitter(VkCommandBuffer commands, VkPipelineLayout layout, const Jitter& jitter) {
     vkCmdPushConstants(commands, layout, kPushConstantStages, 0, sizeof jitter, &jitter);

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <map>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,13 @@ struct RenderMethod {
 
 // What a method's shaders shade: the variant of shade.glsl and its descriptor set 0.
 enum class ShadedThing { meshes, primitives, picture };
+
+// A shader that is compiled for each of them.
+struct ShadingCode {
+    std::span<const std::uint32_t> meshes, primitives, picture;
+
+    std::span<const std::uint32_t> of(ShadedThing thing) const;
+};
 
 struct ShadingSource {
     ShadedThing thing = ShadedThing::meshes;

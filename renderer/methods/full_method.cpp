@@ -2,7 +2,6 @@
 #include "renderer/methods/full_method.h"
 
 #include <array>
-#include <span>
 
 #include "renderer/methods/method_parameters.h"
 #include "shader_code/full_meshes.h"
@@ -12,23 +11,13 @@
 namespace parafovea {
 namespace {
 
-std::span<const std::uint32_t> code_for(ShadedThing thing) {
-    switch (thing) {
-        case ShadedThing::meshes:
-            return shader_code::full_meshes;
-        case ShadedThing::primitives:
-            return shader_code::full_primitives;
-        case ShadedThing::picture:
-            return shader_code::full_picture;
-    }
-    return {};
-}
+const ShadingCode kCode{shader_code::full_meshes, shader_code::full_primitives, shader_code::full_picture};
 
 }  // namespace
 
 FullMethod::FullMethod(Gpu& gpu, const ShadingSource& source, VkFormat target_format)
     : layout_(make_pipeline_layout(gpu, {source.layout}, sizeof(Jitter))),
-      pipeline_(make_fullscreen_pipeline(gpu, code_for(source.thing), layout_.get(), {target_format},
+      pipeline_(make_fullscreen_pipeline(gpu, kCode.of(source.thing), layout_.get(), {target_format},
                                          source.constants)) {}
 
 void FullMethod::configure(const RenderMethod& method) {

@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "renderer/methods/native_inset.h"
 #include "shader_code/fullscreen_vert.h"
 #include "shader_code/grid_mask.h"
 #include "shader_code/grid_mask_detail.h"
@@ -14,10 +15,6 @@
 #include "shader_code/grid_shade_meshes.h"
 #include "shader_code/grid_shade_picture.h"
 #include "shader_code/grid_shade_primitives.h"
-#include "shader_code/inset_meshes.h"
-#include "shader_code/inset_picture.h"
-#include "shader_code/inset_primitives.h"
-#include "shader_code/inset_vert.h"
 #include "shader_code/tile_detail.h"
 
 namespace parafovea {
@@ -29,29 +26,8 @@ constexpr std::uint32_t kInsetQuery = 2;
 
 using Code = std::span<const std::uint32_t>;
 
-Code shading_code_for(ShadedThing thing) {
-    switch (thing) {
-        case ShadedThing::meshes:
-            return shader_code::grid_shade_meshes;
-        case ShadedThing::primitives:
-            return shader_code::grid_shade_primitives;
-        case ShadedThing::picture:
-            return shader_code::grid_shade_picture;
-    }
-    return {};
-}
-
-Code inset_code_for(ShadedThing thing) {
-    switch (thing) {
-        case ShadedThing::meshes:
-            return shader_code::inset_meshes;
-        case ShadedThing::primitives:
-            return shader_code::inset_primitives;
-        case ShadedThing::picture:
-            return shader_code::inset_picture;
-    }
-    return {};
-}
+const ShadingCode kShading{shader_code::grid_shade_meshes, shader_code::grid_shade_primitives,
+                           shader_code::grid_shade_picture};
 
 std::vector<ShaderConstant> joined(std::vector<ShaderConstant> a, const std::vector<ShaderConstant>& b) {
     a.insert(a.end(), b.begin(), b.end());
@@ -126,7 +102,7 @@ GridMethod::Pipelines GridMethod::make_pipelines(const GridPlan& plan) const {
 
     GraphicsPipelineDescription shading;
     shading.vertex = shader_code::fullscreen_vert;
-    shading.fragment = shading_code_for(source_.thing);
+    shading.fragment = kShading.of(source_.thing);
     shading.layout = shading_layout_.get();
     shading.color_formats = {formats_.samples};
     shading.depth_format = kGridMaskFormat;
@@ -145,16 +121,9 @@ GridMethod::Pipelines GridMethod::make_pipelines(const GridPlan& plan) const {
             plan.look_at_detail ? Code(shader_code::grid_resolve_detail) : Code(shader_code::grid_resolve),
             reading_layout_.get(), {formats_.target}, constants);
     }
-    if (plan.grid.inset_px > 0) {
-        GraphicsPipelineDescription inset;
-        inset.vertex = shader_code::inset_vert;
-        inset.fragment = inset_code_for(source_.thing);
-        inset.layout = inset_layout_.get();
-        inset.color_formats = {formats_.target};
-        inset.alpha_blend = true;
-        inset.constants = source_.constants;
-        made.inset = make_graphics_pipeline(gpu_, inset);
-    }
+    if (plan.grid.inset_px > 0)
+        made.inset =
+            make_inset_pipeline(gpu_, source_, inset_layout_.get(), formats_.target, source_.constants);
     return made;
 }
 
@@ -180,7 +149,8 @@ void GridMethod::record(const MethodFrame& frame) {
 
     if (t.plan.grid.inset_px > 0) {
         frame.timer->start(frame.commands, "pass_1");
-        record_inset(frame);
+        record_native_inset(frame, now_->inset.get(), inset_layout_.get(), t.sets.inset.get(), t.counts,
+                            kInsetQuery);
         frame.timer->stop(frame.commands);
     }
     t.fresh = false;
@@ -188,17 +158,17 @@ void GridMethod::record(const MethodFrame& frame) {
 
 void GridMethod::record_mask(const MethodFrame& frame, std::uint32_t round) {
     GridTargets& t = targets();
-    vkCmdResetQueryPool(frame.commands, t.counts.get(), round, 1);
+    t.counts.reset(frame.commands, round);
     ResourceUse before = kUseDepthTest;
     before.layout = VK_IMAGE_LAYOUT_UNDEFINED;
     image_barrier(frame.commands, t.mask, before, kUseDepthTarget);
     const DepthTarget depth{.view = t.mask.view(), .clear = true, .clear_depth = 0};
     begin_rendering(frame.commands, t.mask.extent(), {}, &depth);
-    vkCmdBeginQuery(frame.commands, t.counts.get(), round, VK_QUERY_CONTROL_PRECISE_BIT);
+    t.counts.begin(frame.commands, round);
     push_jitter(frame.commands, mask_layout_.get(), frame.jitter);
     draw_fullscreen(frame.commands, now_->mask[round].get(), mask_layout_.get(),
                     std::array{t.sets.placing.get()});
-    vkCmdEndQuery(frame.commands, t.counts.get(), round);
+    t.counts.end(frame.commands, round);
     vkCmdEndRendering(frame.commands);
     image_barrier(frame.commands, t.mask, kUseDepthTarget, kUseDepthTest);
     t.mask_stale = false;
@@ -242,41 +212,17 @@ void GridMethod::record_reading(const MethodFrame& frame) {
     vkCmdEndRendering(frame.commands);
 }
 
-void GridMethod::record_inset(const MethodFrame& frame) {
-    GridTargets& t = targets();
-    constexpr std::uint32_t kVertices = 3 * 64;  // see inset.vert
-    image_barrier(frame.commands, *frame.target, kUseColorTarget, kUseColorTarget);
-    vkCmdResetQueryPool(frame.commands, t.counts.get(), kInsetQuery, 1);
-    begin_rendering(frame.commands, frame.target->extent(), {ColorTarget{.view = frame.target->view()}});
-    vkCmdBeginQuery(frame.commands, t.counts.get(), kInsetQuery, VK_QUERY_CONTROL_PRECISE_BIT);
-    vkCmdBindPipeline(frame.commands, VK_PIPELINE_BIND_POINT_GRAPHICS, now_->inset.get());
-    push_jitter(frame.commands, inset_layout_.get(), frame.jitter);
-    const std::array sets{frame.shading_set, t.sets.inset.get()};
-    vkCmdBindDescriptorSets(frame.commands, VK_PIPELINE_BIND_POINT_GRAPHICS, inset_layout_.get(), 0,
-                            sets.size(), sets.data(), 0, nullptr);
-    vkCmdDraw(frame.commands, kVertices, 1, 0, 0);
-    vkCmdEndQuery(frame.commands, t.counts.get(), kInsetQuery);
-    vkCmdEndRendering(frame.commands);
-}
-
 SampleSpacing GridMethod::spacing_at(PointPx position) const {
     return spacing_of(targets_.front()->plan, position);
 }
 
 MethodStatistics GridMethod::statistics() const {
     const GridTargets& t = *targets_.front();
-    const auto count = [&](std::uint32_t query) {
-        std::uint64_t samples = 0;
-        check_vulkan(vkGetQueryPoolResults(gpu_.device(), t.counts.get(), query, 1, sizeof samples, &samples,
-                                           sizeof samples, VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT),
-                     "counting samples");
-        return samples;
-    };
     MethodStatistics statistics;
     statistics.buffer = t.plan.buffer;
-    statistics.shaded_samples = count(0);
-    if (t.plan.look_at_detail) statistics.shaded_samples += count(1);
-    if (t.plan.grid.inset_px > 0) statistics.shaded_samples += count(kInsetQuery);
+    statistics.shaded_samples = t.counts.count(0);
+    if (t.plan.look_at_detail) statistics.shaded_samples += t.counts.count(1);
+    if (t.plan.grid.inset_px > 0) statistics.shaded_samples += t.counts.count(kInsetQuery);
     const auto note = [&](bool built, const char* name, const char* when_built, const char* when_not) {
         (built ? statistics.built : statistics.left_out).push_back({name, built ? when_built : when_not});
     };

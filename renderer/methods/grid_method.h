@@ -38,7 +38,6 @@ class GridMethod : public FoveationMethod {
     void record_shading(const MethodFrame& frame, std::uint32_t round);
     void record_detail(const MethodFrame& frame);
     void record_reading(const MethodFrame& frame);
-    void record_inset(const MethodFrame& frame);
 
     Gpu& gpu_;
     ShadingSource source_;

@@ -45,6 +45,7 @@ GridTargets::GridTargets(Gpu& gpu, const GridFormats& formats, const RenderMetho
       mask(image_of(gpu, plan.buffer, kGridMaskFormat, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT)),
       samples(image_of(gpu, plan.buffer, formats.samples,
                        VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT)),
+      counts(gpu, 3),
       sampler(make_sampler(gpu, {.mipmap = VK_SAMPLER_MIPMAP_MODE_NEAREST,
                                  .address_u = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
                                  .address_v = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE})),
@@ -61,13 +62,6 @@ GridTargets::GridTargets(Gpu& gpu, const GridFormats& formats, const RenderMetho
     for (DescriptorSet* set : {&sets.placing, &sets.reading})
         set->set_sampled_image(2, layer_of_tile.view(), nearest.get());
     if (plan.kind == shared::kGridScattered) fill = std::make_unique<PullPush>(gpu, samples, formats.target);
-
-    VkQueryPoolCreateInfo info{VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO};
-    info.queryType = VK_QUERY_TYPE_OCCLUSION;
-    info.queryCount = 3;
-    VkQueryPool queries = VK_NULL_HANDLE;
-    check_vulkan(vkCreateQueryPool(gpu.device(), &info, nullptr, &queries), "creating a sample counter");
-    counts = {gpu.device(), queries};
 }
 
 void GridTargets::set_plan(const GridPlan& wanted) {

@@ -7,6 +7,7 @@
 #include "renderer/methods/foveation_method.h"
 #include "renderer/methods/grid_plan.h"
 #include "renderer/methods/pull_push.h"
+#include "renderer/methods/sample_counter.h"
 
 namespace parafovea {
 
@@ -51,7 +52,7 @@ class GridTargets {
     GpuImage mask;           // depth 1 where a texel is needed, else 0
     GpuImage samples;        // what is shaded
     GpuImage layer_of_tile;  // with detail
-    OwnedQueryPool counts;   // 0 and 1: texels needed in each round, 2: pixels of the inset
+    SampleCounter counts;    // 0 and 1: texels needed in each round, 2: pixels of the inset
     OwnedSampler sampler;    // linear, clamped
     OwnedSampler nearest;
     std::unique_ptr<PullPush> fill;  // of a scattered grid

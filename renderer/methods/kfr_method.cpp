@@ -10,11 +10,8 @@
 #include <utility>
 
 #include "renderer/methods/method_parameters.h"
+#include "renderer/methods/native_inset.h"
 #include "shader_code/fullscreen_vert.h"
-#include "shader_code/inset_meshes.h"
-#include "shader_code/inset_picture.h"
-#include "shader_code/inset_primitives.h"
-#include "shader_code/inset_vert.h"
 #include "shader_code/internal_filter.h"
 #include "shader_code/pass_1_meshes.h"
 #include "shader_code/pass_1_picture.h"
@@ -30,29 +27,8 @@ namespace {
 // How many settings may take turns on one screen before buffers are made anew.
 constexpr std::size_t kMostTargets = 8;
 
-std::span<const std::uint32_t> shading_code_for(ShadedThing thing) {
-    switch (thing) {
-        case ShadedThing::meshes:
-            return shader_code::pass_1_meshes;
-        case ShadedThing::primitives:
-            return shader_code::pass_1_primitives;
-        case ShadedThing::picture:
-            return shader_code::pass_1_picture;
-    }
-    return {};
-}
-
-std::span<const std::uint32_t> inset_code_for(ShadedThing thing) {
-    switch (thing) {
-        case ShadedThing::meshes:
-            return shader_code::inset_meshes;
-        case ShadedThing::primitives:
-            return shader_code::inset_primitives;
-        case ShadedThing::picture:
-            return shader_code::inset_picture;
-    }
-    return {};
-}
+const ShadingCode kShading{shader_code::pass_1_meshes, shader_code::pass_1_primitives,
+                           shader_code::pass_1_picture};
 
 std::uint32_t side(int pixels) {
     return static_cast<std::uint32_t>(pixels);
@@ -154,8 +130,8 @@ KfrMethod::Pipelines KfrMethod::make_pipelines() const {
         mask.constants.push_back({2, setting_.internal_filter ? 1U : 0U});
         made.mask = make_graphics_pipeline(gpu_, mask);
     }
-    GraphicsPipelineDescription shading = masked_pass(shading_code_for(source_.thing), layouts_.shading.get(),
-                                                      formats_.reduced, setting_.culling);
+    GraphicsPipelineDescription shading =
+        masked_pass(kShading.of(source_.thing), layouts_.shading.get(), formats_.reduced, setting_.culling);
     shading.constants = source_.constants;
     shading.constants.insert(shading.constants.end(), map_constants.begin(), map_constants.end());
     made.shading = make_graphics_pipeline(gpu_, shading);
@@ -175,16 +151,9 @@ KfrMethod::Pipelines KfrMethod::make_pipelines() const {
                                              {formats_.target},
                                              {{2, std::bit_cast<std::uint32_t>(setting_.post_filter_cap)}});
     }
-    if (setting_.inset > 0) {
-        GraphicsPipelineDescription inset;
-        inset.vertex = shader_code::inset_vert;
-        inset.fragment = inset_code_for(source_.thing);
-        inset.layout = layouts_.shading.get();
-        inset.color_formats = {formats_.target};
-        inset.alpha_blend = true;
-        inset.constants = shading.constants;
-        made.inset = make_graphics_pipeline(gpu_, inset);
-    }
+    if (setting_.inset > 0)
+        made.inset =
+            make_inset_pipeline(gpu_, source_, layouts_.shading.get(), formats_.target, shading.constants);
     return made;
 }
 
@@ -217,42 +186,25 @@ void KfrMethod::record(const MethodFrame& frame) {
     }
     if (setting_.inset > 0) {
         frame.timer->start(frame.commands, "pass_1");
-        record_inset(frame);
+        record_native_inset(frame, now_->inset.get(), layouts_.shading.get(), t.map_set.get(), t.counts, 1);
         frame.timer->stop(frame.commands);
     }
     t.fresh = false;
 }
 
-void KfrMethod::record_inset(const MethodFrame& frame) {
-    KfrTargets& t = targets_.front();
-    constexpr std::uint32_t kVertices = 3 * 64;  // see inset.vert
-    image_barrier(frame.commands, *frame.target, kUseColorTarget, kUseColorTarget);
-    vkCmdResetQueryPool(frame.commands, t.counts.get(), 1, 1);
-    begin_rendering(frame.commands, frame.target->extent(), {ColorTarget{.view = frame.target->view()}});
-    vkCmdBeginQuery(frame.commands, t.counts.get(), 1, VK_QUERY_CONTROL_PRECISE_BIT);
-    vkCmdBindPipeline(frame.commands, VK_PIPELINE_BIND_POINT_GRAPHICS, now_->inset.get());
-    push_jitter(frame.commands, layouts_.shading.get(), frame.jitter);
-    const std::array sets{frame.shading_set, t.map_set.get()};
-    vkCmdBindDescriptorSets(frame.commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layouts_.shading.get(), 0,
-                            sets.size(), sets.data(), 0, nullptr);
-    vkCmdDraw(frame.commands, kVertices, 1, 0, 0);
-    vkCmdEndQuery(frame.commands, t.counts.get(), 1);
-    vkCmdEndRendering(frame.commands);
-}
-
 void KfrMethod::record_mask(const MethodFrame& frame) {
     KfrTargets& t = targets_.front();
     const VkCommandBuffer commands = frame.commands;
-    vkCmdResetQueryPool(commands, t.counts.get(), 0, 1);
+    t.counts.reset(commands, 0);
     ResourceUse before = kUseDepthTest;
     before.layout = VK_IMAGE_LAYOUT_UNDEFINED;
     image_barrier(commands, t.mask, before, kUseDepthTarget);
     const DepthTarget depth{.view = t.mask.view(), .clear = true, .clear_depth = 0};
     begin_rendering(commands, t.mask.extent(), {}, &depth);
-    vkCmdBeginQuery(commands, t.counts.get(), 0, VK_QUERY_CONTROL_PRECISE_BIT);
+    t.counts.begin(commands, 0);
     push_jitter(commands, layouts_.mask.get(), frame.jitter);
     draw_fullscreen(commands, now_->mask.get(), layouts_.mask.get(), std::array{t.map_set.get()});
-    vkCmdEndQuery(commands, t.counts.get(), 0);
+    t.counts.end(commands, 0);
     vkCmdEndRendering(commands);
     image_barrier(commands, t.mask, kUseDepthTarget, kUseDepthTest);
     t.mask_stale = false;
@@ -328,15 +280,8 @@ MethodStatistics KfrMethod::statistics() const {
     const auto note = [&](bool built, const char* name, const char* when_built, const char* when_not) {
         (built ? statistics.built : statistics.left_out).push_back({name, built ? when_built : when_not});
     };
-    const auto count = [&](std::uint32_t query) {
-        std::uint64_t samples = 0;
-        check_vulkan(vkGetQueryPoolResults(gpu_.device(), t.counts.get(), query, 1, sizeof samples, &samples,
-                                           sizeof samples, VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT),
-                     "counting samples");
-        return samples;
-    };
-    if (setting_.culling) statistics.shaded_samples = count(0);
-    if (setting_.inset > 0) statistics.shaded_samples += count(1);
+    if (setting_.culling) statistics.shaded_samples = t.counts.count(0);
+    if (setting_.inset > 0) statistics.shaded_samples += t.counts.count(1);
     note(setting_.culling, "culling", "only texels that a pixel reads are shaded", "switched off");
     note(setting_.internal_filter, "internal filter", "3x3 Gaussian over the peripheral half",
          "switched off");

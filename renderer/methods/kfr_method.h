@@ -45,7 +45,6 @@ class KfrMethod : public FoveationMethod {
     void record_shading(const MethodFrame& frame);
     void record_internal_filter(VkCommandBuffer commands);
     void record_resampling(const MethodFrame& frame, const GpuImage& target);
-    void record_inset(const MethodFrame& frame);
 
     Gpu& gpu_;
     ShadingSource source_;

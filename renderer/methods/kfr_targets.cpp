@@ -26,6 +26,7 @@ KfrTargets::KfrTargets(Gpu& gpu, const KfrFormats& formats, const KfrSetting& wa
       screen(wanted_screen),
       buffer(buffer_size(wanted_screen, wanted.kernel)),
       map(gpu, sizeof(shared::KernelMap), VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT, BufferPlace::upload),
+      counts(gpu, 2),
       sampler(make_sampler(gpu, {.filter = formats.exact_bilinear ? VK_FILTER_NEAREST : VK_FILTER_LINEAR,
                                  .mipmap = VK_SAMPLER_MIPMAP_MODE_NEAREST,
                                  .address_u = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
@@ -52,13 +53,6 @@ KfrTargets::KfrTargets(Gpu& gpu, const KfrFormats& formats, const KfrSetting& wa
     resample_set.set_buffer(0, map);
     resample_set.set_sampled_image(1, reduced.view(), sampler.get());
     post_set.set_buffer(0, map);
-
-    VkQueryPoolCreateInfo info{VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO};
-    info.queryType = VK_QUERY_TYPE_OCCLUSION;
-    info.queryCount = 2;
-    VkQueryPool queries = VK_NULL_HANDLE;
-    check_vulkan(vkCreateQueryPool(gpu.device(), &info, nullptr, &queries), "creating a sample counter");
-    counts = {gpu.device(), queries};
 }
 
 void KfrTargets::set_gaze(PointPx wanted) {

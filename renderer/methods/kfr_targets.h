@@ -4,6 +4,7 @@
 
 #include "renderer/kernel_setting.h"
 #include "renderer/methods/foveation_method.h"
+#include "renderer/methods/sample_counter.h"
 
 namespace parafovea {
 
@@ -52,7 +53,7 @@ class KfrTargets {
     GpuImage reduced;        // what Pass I shades and Pass II reads
     GpuImage filtered;       // the internal filter's result, then copied to `reduced`
     GpuImage screen_linear;  // Pass II's result for the post filter
-    OwnedQueryPool counts;   // 0: texels needed, 1: pixels of the inset
+    SampleCounter counts;    // 0: texels needed, 1: pixels of the inset
     OwnedSampler sampler;
     DescriptorSet map_set;       // 0: map
     DescriptorSet reduced_set;   // 0: reduced
