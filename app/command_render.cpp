@@ -1,6 +1,5 @@
 // parafovea render: pictures of a scene, with what they cost.
 #include <algorithm>
-#include <charconv>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -65,20 +64,6 @@ std::string method_choices() {
     std::string text = "How it is drawn:";
     for (const MethodName& method : method_names()) text += "\n" + method.name + ": " + method.summary;
     return text;
-}
-
-// "inset=0.05" or "kernel=sine" into a method's numbers or words.
-void add_setting(const std::string& text, RenderMethod& method) {
-    const std::size_t equals = text.find('=');
-    if (equals == 0 || equals == std::string::npos || equals + 1 == text.size())
-        throw CLI::ValidationError("--set", "expected NAME=VALUE such as inset=0.05, found '" + text + "'");
-    const std::string name = text.substr(0, equals), value = text.substr(equals + 1);
-    double number = 0;
-    const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), number);
-    if (error == std::errc() && end == value.data() + value.size())
-        method.numbers[name] = number;
-    else
-        method.words[name] = value;
 }
 
 SceneCamera camera_at(const Scene& scene, double time_s) {
@@ -151,7 +136,7 @@ RenderMethod RenderCommand::wanted_method() const {
     if (post_filter_) method.numbers["post_filter"] = 1;
     if (taa_ > 0) method.numbers["taa"] = taa_;
     if (contrast_) method.numbers["contrast"] = *contrast_;
-    for (const std::string& setting : settings_) add_setting(setting, method);
+    for (const std::string& setting : settings_) add_setting("--set", setting, method);
     check(method);
     return method;
 }

@@ -58,6 +58,10 @@ TradeoffCommand::TradeoffCommand(CLI::App& program) {
         ->capture_default_str();
     command->add_option("--methods", methods_, "Methods, with all their settings; all when absent")
         ->delimiter(',');
+    command->add_option(
+        "--setting", settings_,
+        "\"METHOD NAME=VALUE ...\": measure this setting, too, or only such ones when --methods is "
+        "absent; may be repeated");
     command->add_option("--sizes", sizes_, "WIDTHxHEIGHT or WIDTHxHEIGHT@DEGREES (horizontal field of view)")
         ->delimiter(',')
         ->capture_default_str();
@@ -115,7 +119,9 @@ void TradeoffCommand::run() const {
     } else {
         for (const std::string& size : sizes_) plan.views.push_back(parse_view(size, fov_deg_));
     }
-    plan.methods = methods_.empty() ? standard_tradeoff_methods() : tradeoff_methods_of(methods_);
+    plan.methods =
+        methods_.empty() && settings_.empty() ? standard_tradeoff_methods() : tradeoff_methods_of(methods_);
+    for (const std::string& setting : settings_) plan.methods.push_back(parse_tradeoff_method(setting));
     plan.rounds = rounds_;
     plan.frames = frames_;
     plan.taa = taa_;
@@ -220,6 +226,7 @@ std::string TradeoffCommand::command_line() const {
     };
     std::string line = "parafovea tradeoff --scenes " + joined(scenes_);
     if (!methods_.empty()) line += " --methods " + joined(methods_);
+    for (const std::string& setting : settings_) line += " --setting '" + setting + "'";
     line += protocol_.empty()
                 ? " --sizes " + joined(sizes_) + " --fov " + short_text(fov_deg_) + " --luminance " +
                       short_text(peak_cd_m2_) + " --rate " + short_text(refresh_hz_)

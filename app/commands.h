@@ -222,7 +222,7 @@ class TradeoffCommand {
     std::string command_line() const;
 
     std::vector<std::string> scenes_ = {"atrium"};
-    std::vector<std::string> methods_;
+    std::vector<std::string> methods_, settings_;
     std::vector<std::string> sizes_ = {"1280x720"};
     std::vector<std::string> gazes_ = {"centre"};
     std::vector<std::string> motions_ = {"still", "path"};

@@ -45,4 +45,17 @@ std::pair<int, int> parse_range(const std::string& text) {
     return range;
 }
 
+void add_setting(const std::string& option, const std::string& text, RenderMethod& method) {
+    const std::size_t equals = text.find('=');
+    if (equals == 0 || equals == std::string::npos || equals + 1 == text.size())
+        throw CLI::ValidationError(option, "expected NAME=VALUE such as inset=0.05, found '" + text + "'");
+    const std::string name = text.substr(0, equals), value = text.substr(equals + 1);
+    double number = 0;
+    const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), number);
+    if (error == std::errc() && end == value.data() + value.size())
+        method.numbers[name] = number;
+    else
+        method.words[name] = value;
+}
+
 }  // namespace parafovea

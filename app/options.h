@@ -1,10 +1,11 @@
-// Reads the small notations of the command line: WxH, X,Y.
+// Reads the small notations of the command line: WxH, X,Y, NAME=VALUE.
 #pragma once
 
 #include <string>
 #include <utility>
 
 #include "devices/geometry.h"
+#include "renderer/methods/foveation_method.h"
 
 namespace parafovea {
 
@@ -16,5 +17,9 @@ PointPx parse_point(const std::string& text);
 
 // "1..28", both above 0 and in order; throws CLI::ValidationError otherwise.
 std::pair<int, int> parse_range(const std::string& text);
+
+// "inset=0.05" or "kernel=sine" into a method's numbers or words; throws CLI::ValidationError naming the
+// option otherwise.
+void add_setting(const std::string& option, const std::string& text, RenderMethod& method);
 
 }  // namespace parafovea

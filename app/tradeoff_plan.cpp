@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "analysis/number_text.h"
+#include "app/options.h"
 #include "renderer/methods/method_list.h"
 
 namespace parafovea {
@@ -218,6 +219,21 @@ std::vector<TradeoffMethod> tradeoff_methods_of(const std::vector<std::string>& 
         throw std::runtime_error("tradeoff: no method '" + wanted + "'; there are: " + names);
     }
     return chosen;
+}
+
+TradeoffMethod parse_tradeoff_method(const std::string& text) {
+    std::istringstream words(text);
+    TradeoffMethod method;
+    words >> method.method.name;
+    for (std::string word; words >> word;) add_setting("--setting", word, method.method);
+    check(method.method);
+    const std::vector<TradeoffMethod> all = standard_tradeoff_methods();
+    auto known = std::ranges::find(all, method.method, &TradeoffMethod::method);
+    if (known == all.end())
+        known = std::ranges::find_if(
+            all, [&](const TradeoffMethod& one) { return one.method.name == method.method.name; });
+    method.family = known == all.end() ? method.method.name : known->family;
+    return method;
 }
 
 }  // namespace parafovea

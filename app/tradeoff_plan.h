@@ -85,4 +85,9 @@ std::string shard_text(const Shard& shard);
 std::vector<TradeoffMethod> standard_tradeoff_methods();
 std::vector<TradeoffMethod> tradeoff_methods_of(const std::vector<std::string>& families);
 
+// "rings mar_slope=10 mar_start=0.05": a method and its parameters. Its family is the one that the standard
+// list gives this setting, or else this method's defaults. Throws CLI::ValidationError or
+// std::runtime_error with one line.
+TradeoffMethod parse_tradeoff_method(const std::string& text);
+
 }  // namespace parafovea
