@@ -81,6 +81,12 @@ shared::uint number_of(KernelKind kind) {
     return 0;
 }
 
+std::uint32_t doublings_of(double alpha) {
+    constexpr std::array kAlphas{1.0, 2.0, 4.0, 8.0};
+    const auto found = std::ranges::find(kAlphas, alpha);
+    return found == kAlphas.end() ? shared::kAnyAlpha : static_cast<std::uint32_t>(found - kAlphas.begin());
+}
+
 int reduced(int pixels, double sigma) {
     return std::max(1, static_cast<int>(std::lround(pixels / sigma)));
 }
@@ -166,6 +172,7 @@ shared::KernelMap make_kernel_map(SizePx screen, PointPx gaze, const KernelSetti
     }
     map.kernel = number_of(setting.kind);
     map.as_printed = setting.as_printed ? 1 : 0;
+    map.doublings = doublings_of(setting.alpha);
     map.beta_low = {betas[0], betas[1], betas[2], betas[3]};
     map.beta_high = {betas[4], betas[5], betas[6], betas[7]};
     return map;

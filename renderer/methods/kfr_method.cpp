@@ -103,8 +103,10 @@ void KfrMethod::prepare(SizePx screen, PointPx gaze) {
 }
 
 KfrMethod::PipelineKey KfrMethod::pipeline_key() const {
-    return {static_cast<std::uint32_t>(setting_.kernel.kind),
-            setting_.kernel.as_printed ? 1U : 0U,
+    const shared::KernelMap map = make_kernel_map({1, 1}, {}, setting_.kernel);
+    return {map.kernel,
+            map.as_printed,
+            map.doublings,
             setting_.culling ? 1U : 0U,
             setting_.internal_filter ? 1U : 0U,
             setting_.post_filter ? 1U : 0U,
@@ -116,7 +118,7 @@ KfrMethod::Pipelines KfrMethod::make_pipelines() const {
     Pipelines made;
     // See map_block.glsl.
     const shared::KernelMap map = make_kernel_map({1, 1}, {}, setting_.kernel);
-    const std::vector<ShaderConstant> map_constants{{0, map.kernel}, {1, map.as_printed}};
+    const std::vector<ShaderConstant> map_constants{{0, map.kernel}, {1, map.as_printed}, {3, map.doublings}};
     if (setting_.culling) {
         GraphicsPipelineDescription mask;
         mask.vertex = shader_code::fullscreen_vert;

@@ -37,7 +37,7 @@ class KfrMethod : public FoveationMethod {
         OwnedPipeline inset;
     };
     // What pipelines depend on: sigma, alpha and the betas are read at run time.
-    using PipelineKey = std::array<std::uint32_t, 7>;
+    using PipelineKey = std::array<std::uint32_t, 8>;
 
     PipelineKey pipeline_key() const;
     Pipelines make_pipelines() const;

@@ -49,6 +49,13 @@ SHARED_FUNCTION float power_of(float x, float a) {
     return x <= 0.0f ? 0.0f : natural_exp(a * natural_log(x));
 }
 
+// sqrt(x), to 1e-7 of its value: one step of Newton's from what a device finds, which may be off by 4.5
+// units.
+SHARED_FUNCTION float root_of(float x) {
+    float r = sqrt(x);
+    return r - (r * r - x) * (0.5f / max(r, 1e-18f));
+}
+
 // arctan(x) for x in [0, 1], to 2e-8 (Abramowitz and Stegun 1964, 4.4.49).
 SHARED_FUNCTION float arctan_unit(float x) {
     float s = x * x;

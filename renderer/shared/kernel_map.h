@@ -24,6 +24,9 @@ const uint kKernelExponential = 3u;  // (e^x - 1) / (e - 1)
 // / L.
 const uint kKernelLinearMar = 4u;
 
+// KernelMap::doublings of an alpha that is not 1, 2, 4 or 8.
+const uint kAnyAlpha = 99u;
+
 // Uniform block; std140. Sizes in pixels or texels as floats.
 struct KernelMap {
     vec2 screen_size;      // W, H
@@ -39,9 +42,27 @@ struct KernelMap {
     vec4 beta_high;        // beta_5 .. beta_8
     float mar_slope;       // k of kKernelLinearMar, 1 / pixel
     float mar_start;       // and r0, pixels
+    uint doublings;        // kKernelPower: alpha = 2^doublings, or kAnyAlpha
     float pad_0;
-    float pad_1;
 };
+
+// x^alpha and x^(1 / alpha): products and roots alone where that is enough.
+SHARED_FUNCTION float alpha_power(KernelMap map, float x) {
+    if (map.doublings == kAnyAlpha) return power_of(x, map.alpha);
+    float y = x;
+    if (map.doublings > 0u) y = y * y;
+    if (map.doublings > 1u) y = y * y;
+    if (map.doublings > 2u) y = y * y;
+    return y;
+}
+SHARED_FUNCTION float alpha_root(KernelMap map, float x) {
+    if (map.doublings == kAnyAlpha) return power_of(x, 1.0f / map.alpha);
+    float y = x;
+    if (map.doublings > 0u) y = root_of(y);
+    if (map.doublings > 1u) y = root_of(y);
+    if (map.doublings > 2u) y = root_of(y);
+    return y;
+}
 
 SHARED_FUNCTION float polynomial_kernel(KernelMap map, float x) {
     float high = map.beta_high.x + x * (map.beta_high.y + x * (map.beta_high.z + x * map.beta_high.w));
@@ -51,7 +72,7 @@ SHARED_FUNCTION float polynomial_kernel(KernelMap map, float x) {
 
 // K(x) for x in [0, 1]; K(0) = 0, K(1) = 1, rising.
 SHARED_FUNCTION float kernel(KernelMap map, float x) {
-    if (map.kernel == kKernelPower) return power_of(x, map.alpha);
+    if (map.kernel == kKernelPower) return alpha_power(map, x);
     if (map.kernel == kKernelPolynomial) return polynomial_kernel(map, x);
     if (map.kernel == kKernelSine) return unit_vector(0.25f * x).y;
     return (natural_exp(x) - 1.0f) * (1.0f / 1.71828182845905f);
@@ -59,7 +80,7 @@ SHARED_FUNCTION float kernel(KernelMap map, float x) {
 
 // K^-1(y) for y in [0, 1].
 SHARED_FUNCTION float inverse_kernel(KernelMap map, float y) {
-    if (map.kernel == kKernelPower) return power_of(y, 1.0f / map.alpha);
+    if (map.kernel == kKernelPower) return alpha_root(map, y);
     if (map.kernel == kKernelPolynomial) {
         // A rising polynomial has one root in the bracket; 30 halvings reach the last bit of a float.
         float low = 0.0f;

@@ -54,7 +54,7 @@ TEST(Numerics, written_with_built_in_functions_the_map_would_miss_by_pixels) {
     EXPECT_GT(most, 20) << "in units of the bound";
 }
 
-TEST(Elementary, logarithm_and_exponential_keep_their_stated_errors) {
+TEST(Elementary, logarithm_exponential_and_root_keep_their_stated_errors) {
     Random random(3);
     for (int i = 0; i < 100'000; ++i) {
         const auto x = static_cast<float>(std::exp(random.uniform(-80, 80)));
@@ -62,11 +62,13 @@ TEST(Elementary, logarithm_and_exponential_keep_their_stated_errors) {
         ASSERT_NEAR(shared::natural_log(x), log, 1e-7 * std::fmax(1.0, std::abs(log))) << x;
         const auto near_one = static_cast<float>(1 + random.uniform(-0.01, 0.01));
         ASSERT_NEAR(shared::natural_log(near_one), std::log(static_cast<double>(near_one)), 4e-9) << near_one;
+        ASSERT_NEAR(shared::root_of(x) / std::sqrt(static_cast<double>(x)), 1, 1e-7) << x;
         const auto y = static_cast<float>(random.uniform(-86, 87));
         ASSERT_NEAR(shared::natural_exp(y) / std::exp(static_cast<double>(y)), 1, 1e-7) << y;
     }
     EXPECT_EQ(shared::natural_log(1), 0);
     EXPECT_EQ(shared::natural_exp(0), 1);
+    EXPECT_EQ(shared::root_of(0), 0);
     for (const float x : {0.0f, -1.0f, 1e-45f, 1e-38f}) EXPECT_NEAR(shared::natural_log(x), -85.2, 0.1) << x;
     for (const float x : {-1e30f, -1000.0f}) EXPECT_LT(shared::natural_exp(x), 1e-37f);
     for (const float x : {1e30f, 1000.0f}) EXPECT_TRUE(std::isfinite(shared::natural_exp(x)));
