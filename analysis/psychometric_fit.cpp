@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "analysis/nelder_mead.h"
+#include "analysis/quasi_newton.h"
 #include "analysis/random_draw.h"
 
 namespace parafovea {
@@ -58,12 +58,28 @@ class Scaled {
         return q;
     }
 
+    // The slope along the numbers, of a slope along the parameters.
+    void slope(std::span<const double> q, const PsychometricParameters& along,
+               std::span<double> result) const {
+        result[0] = along.threshold * span_;
+        result[1] = along.width * std::exp(q[1]) * span_;
+        std::size_t next = 2;
+        const auto root = [&](double by_rate) {
+            result[next] = by_rate * 2.0 * q[next];
+            ++next;
+        };
+        const bool equal = model_.asymptotes == Asymptotes::equal;
+        if (model_.dispersion == Dispersion::fitted) root(along.eta);
+        if (!model_.fixed_lambda) root(along.lambda + (equal ? along.gamma : 0.0));
+        if (model_.asymptotes == Asymptotes::free) root(along.gamma);
+    }
+
     // log of |d parameters / d q|, without which a walk over q would not sample the posterior of the
     // parameters.
     double log_jacobian(std::span<const double> q) const {
-        double sum = q[1];
-        for (std::size_t i = 2; i < q.size(); ++i) sum += std::log(std::max(std::abs(q[i]), 1e-300));
-        return sum;
+        double product = 1.0;
+        for (std::size_t i = 2; i < q.size(); ++i) product *= q[i];
+        return q[1] + std::log(std::max(std::abs(product), 1e-300));
     }
 
   private:
@@ -113,8 +129,8 @@ std::vector<Draw> walk(const PsychometricPosterior& posterior, const Scaled& sca
             proposal[i] = at[i];
             for (std::size_t j = 0; j <= i; ++j) proposal[i] += scale * factor[i * n + j] * normal[j];
         }
-        const double proposed = log_density(proposal);
-        if (std::log(1.0 - draw_unit(generator)) < proposed - density) {
+        const double proposed = log_density(proposal), unit = draw_unit(generator);
+        if (proposed >= density || std::log(1.0 - unit) < proposed - density) {
             at = proposal;
             density = proposed;
             accepted += step >= burn_in ? 1 : 0;
@@ -169,6 +185,32 @@ std::vector<std::string> data_warnings(const std::vector<PsychometricLevel>& lev
     return warnings;
 }
 
+// The parameters (as Scaled's numbers) of the highest posterior that lies downhill of the start, or of a few
+// places when none is given or the one given has no probability.
+Minimum most_probable(const PsychometricPosterior& posterior, const Scaled& scaled,
+                      const std::optional<PsychometricParameters>& given) {
+    const auto cost = [&](std::span<const double> q, std::span<double> slope) {
+        PsychometricParameters along;
+        const double value = posterior.log_posterior(scaled.parameters(q), along);
+        scaled.slope(q, along, slope);
+        for (double& by : slope) by = -by;
+        return std::isfinite(value) ? -value : kInfinity;
+    };
+    if (given && std::isfinite(posterior.log_posterior(*given)))
+        return quasi_newton(cost, scaled.numbers(*given), 1e-8);
+    const double span = posterior.range().high - posterior.range().low;
+    Minimum best{{}, kInfinity};
+    for (const auto& [place, width] :
+         {std::pair{0.5, -0.4}, std::pair{0.25, -1.0}, std::pair{0.8, -0.8}, std::pair{0.9, -0.1}}) {
+        std::vector<double> start(scaled.size(), 0.15);
+        start[0] = place;
+        start[1] = std::clamp(width, std::log(2.0 * posterior.spacing() / span), 1.0);
+        Minimum found = quasi_newton(cost, start, 1e-13);
+        if (found.value < best.value) best = std::move(found);
+    }
+    return best;
+}
+
 }  // namespace
 
 std::optional<PsychometricFit> fit_psychometric(std::span<const PsychometricLevel> levels,
@@ -178,33 +220,7 @@ std::optional<PsychometricFit> fit_psychometric(std::span<const PsychometricLeve
         return std::nullopt;
     const PsychometricPosterior posterior(levels, options.model);
     const Scaled scaled(posterior);
-    const auto cost = [&](std::span<const double> q) {
-        const double value = posterior.log_posterior(scaled.parameters(q));
-        return std::isfinite(value) ? -value : 1e10;
-    };
-
-    // Search from a few places, or from the one given, then polish the best.
-    // A start is given where many fits of like data are wanted, whose spread is a thousand times the
-    // precision asked of each.
-    const double tolerance = options.start ? 1e-6 : 1e-11, precision = options.start ? 1e-4 : 1e-7;
-    Minimum best{{}, kInfinity};
-    if (options.start) best = nelder_mead(cost, scaled.numbers(*options.start), 0.1, 1e-6, 500, precision);
-    for (const auto& [place, width] :
-         {std::pair{0.5, -0.4}, std::pair{0.25, -1.0}, std::pair{0.8, -0.8}, std::pair{0.9, -0.1}}) {
-        if (options.start) break;
-        std::vector<double> start(scaled.size(), 0.15);
-        start[0] = place;
-        start[1] = std::clamp(
-            width, std::log(2.0 * posterior.spacing() / (posterior.range().high - posterior.range().low)),
-            1.0);
-        Minimum found = nelder_mead(cost, start, 0.1, 1e-6, 500);
-        if (found.value < best.value) best = std::move(found);
-    }
-    for (int repeat = 0; repeat < 3; ++repeat) {
-        const double before = best.value;
-        best = nelder_mead(cost, best.at, repeat == 0 ? 0.05 : 0.02, tolerance, 1500, precision);
-        if (before - best.value < 100 * tolerance) break;
-    }
+    const Minimum best = most_probable(posterior, scaled, options.start);
 
     PsychometricFit fit;
     fit.model = options.model;

@@ -72,10 +72,11 @@ class PsychometricPosterior {
     // Levels of one x are joined; empty levels are dropped. At least one trial; x above 0 for the Weibull.
     PsychometricPosterior(std::span<const PsychometricLevel> levels, const PsychometricModel& model);
 
-    double log_likelihood(
-        const PsychometricParameters& parameters) const;               // without the binomial coefficients
-    double log_prior(const PsychometricParameters& parameters) const;  // -infinity outside the support
-    double log_posterior(const PsychometricParameters& parameters) const;
+    // Without the binomial coefficients.
+    double log_likelihood(const PsychometricParameters& parameters) const;
+    double log_posterior(const PsychometricParameters& parameters) const;  // -infinity outside the support
+    // The same, and its slope along each parameter (of the threshold: along its place, ln x for the Weibull).
+    double log_posterior(const PsychometricParameters& parameters, PsychometricParameters& slope) const;
 
     const PsychometricModel& model() const { return model_; }
     const std::vector<PsychometricLevel>& levels() const { return levels_; }
@@ -83,6 +84,9 @@ class PsychometricPosterior {
     double spacing() const { return spacing_; }
 
   private:
+    double log_likelihood(const PsychometricParameters& parameters, PsychometricParameters* slope) const;
+    double log_prior(const PsychometricParameters& parameters, PsychometricParameters* slope) const;
+
     PsychometricModel model_;
     std::vector<PsychometricLevel> levels_;  // in rising order of x
     std::vector<double> places_;             // x, or ln x for the Weibull

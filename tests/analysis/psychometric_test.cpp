@@ -3,10 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
-#include "analysis/nelder_mead.h"
 #include "analysis/psychometric_fit.h"
 #include "analysis/random_draw.h"
+#include "tests/analysis/nelder_mead.h"
 
 namespace parafovea {
 namespace {
@@ -251,6 +252,134 @@ TEST(PsychometricFit, answers_for_no_trial_one_trial_one_level_all_the_same_and_
     EXPECT_NEAR(result->best.threshold, 3.5, 0.8);
     EXPECT_LT(result->threshold.low, 3.5);
     EXPECT_GT(result->threshold.high, 3.5);
+}
+
+// Answers of people who differ, at the final study's levels; from so few to so many of each.
+std::vector<PsychometricLevel> drawn_levels(std::mt19937_64& generator, int each) {
+    const PsychometricParameters person{3.5 + 1.5 * draw_normal(generator), 3.0, 0.02, 0.04, 0.0};
+    std::vector<PsychometricLevel> levels;
+    for (double sigma : {1.2, 1.4, 1.6, 1.8, 2.0, 2.2, 2.4}) {
+        levels.push_back({sigma * sigma, each, 0});
+        const double p = psychometric_value({}, person, levels.back().x);
+        for (int i = 0; i < each; ++i) levels.back().different += draw_unit(generator) < p ? 1 : 0;
+    }
+    return levels;
+}
+
+TEST(PsychometricPosterior, its_slope_is_that_of_finite_differences) {
+    std::mt19937_64 generator(11);
+    for (const Sigmoid sigmoid : {Sigmoid::logistic, Sigmoid::normal, Sigmoid::weibull})
+        for (const Dispersion dispersion : {Dispersion::binomial, Dispersion::fitted})
+            for (const Asymptotes asymptotes : {Asymptotes::free, Asymptotes::equal, Asymptotes::fixed})
+                for (const int each : {2, 36, 400}) {
+                    const auto levels = drawn_levels(generator, each);
+                    const PsychometricPosterior posterior(
+                        levels, {sigmoid, asymptotes, 0.05, {}, {}, {}, dispersion});
+                    const bool weibull = sigmoid == Sigmoid::weibull;
+                    const double range = posterior.range().high - posterior.range().low;
+                    // Inside the flat priors, and on the falling side of each.
+                    for (const auto& [place, width] :
+                         {std::pair{0.4, 0.8}, std::pair{-0.2, 1.7}, std::pair{1.3, 0.22}}) {
+                        const double x = posterior.range().low + place * range;
+                        const PsychometricParameters p{weibull ? std::exp(x) : x, width * range, 0.03, 0.05,
+                                                       dispersion == Dispersion::fitted ? 0.2 : 0.0};
+                        PsychometricParameters slope;
+                        EXPECT_EQ(posterior.log_posterior(p, slope), posterior.log_posterior(p));
+                        const auto numerical = [&](auto moved) {
+                            constexpr double kStep = 1e-5;
+                            return (posterior.log_posterior(moved(kStep)) -
+                                    posterior.log_posterior(moved(-kStep))) /
+                                   (2.0 * kStep);
+                        };
+                        const auto along = [&](double PsychometricParameters::*parameter) {
+                            return numerical([&, parameter](double step) {
+                                PsychometricParameters q = p;
+                                q.*parameter += step;
+                                return q;
+                            });
+                        };
+                        const double by_place = numerical([&](double step) {
+                            PsychometricParameters q = p;
+                            q.threshold = weibull ? std::exp(x + step) : x + step;
+                            return q;
+                        });
+                        const auto near = [&](double exact, double expected, const char* what) {
+                            EXPECT_NEAR(exact, expected, 1e-5 * (1.0 + each + std::abs(expected)))
+                                << what << " at " << place << ", " << width << ", n " << each;
+                        };
+                        near(slope.threshold, by_place, "threshold");
+                        near(slope.width, along(&PsychometricParameters::width), "width");
+                        near(slope.lambda, along(&PsychometricParameters::lambda), "lambda");
+                        near(slope.gamma, along(&PsychometricParameters::gamma), "gamma");
+                        if (dispersion == Dispersion::fitted)
+                            near(slope.eta, along(&PsychometricParameters::eta), "eta");
+                    }
+                }
+}
+
+// The search by slopes against one that knows none, begun where the first ended and where the data suggest.
+TEST(PsychometricFit, no_search_without_slopes_finds_a_more_probable_function) {
+    std::mt19937_64 generator(12);
+    for (const Sigmoid sigmoid : {Sigmoid::logistic, Sigmoid::normal, Sigmoid::weibull})
+        for (const Dispersion dispersion : {Dispersion::binomial, Dispersion::fitted})
+            for (const int each : {2, 8, 36, 36, 36, 36}) {
+                PsychometricFitOptions options;
+                options.draws = 0;
+                options.model.sigmoid = sigmoid;
+                options.model.dispersion = dispersion;
+                const auto levels = drawn_levels(generator, each);
+                const PsychometricFit found = *fit_psychometric(levels, options);
+                const PsychometricPosterior posterior(found.levels, options.model);
+                const bool fitted = dispersion == Dispersion::fitted;
+                const auto cost = [&](std::span<const double> q) {  // place, log width, roots of the rates
+                    const double value = posterior.log_posterior(
+                        {sigmoid == Sigmoid::weibull ? std::exp(q[0]) : q[0], std::exp(q[1]), q[2] * q[2],
+                         q[3] * q[3], fitted ? q[4] * q[4] : 0.0});
+                    return std::isfinite(value) ? -value : 1e10;
+                };
+                const PsychometricParameters& best = found.best;
+                std::vector<double> at_best{
+                    sigmoid == Sigmoid::weibull ? std::log(best.threshold) : best.threshold,
+                    std::log(best.width), std::sqrt(best.lambda), std::sqrt(best.gamma)};
+                std::vector<double> in_the_middle{
+                    0.5 * (posterior.range().low + posterior.range().high),
+                    std::log(0.6 * (posterior.range().high - posterior.range().low)), 0.15, 0.15};
+                if (fitted) {
+                    at_best.push_back(std::sqrt(best.eta));
+                    in_the_middle.push_back(0.15);
+                }
+                EXPECT_NEAR(cost(at_best), found.negative_log_posterior, 1e-9);
+                for (const auto& start : {at_best, in_the_middle}) {
+                    Minimum other = nelder_mead(cost, start, 0.1, 1e-9);
+                    other = nelder_mead(cost, other.at, 0.05, 1e-12);
+                    EXPECT_GT(other.value, found.negative_log_posterior - 1e-7)
+                        << "sigmoid " << static_cast<int>(sigmoid) << ", n " << each;
+                }
+            }
+}
+
+TEST(QuasiNewton, finds_the_bottom_of_rosenbrocks_valley_and_never_leaves_where_the_function_is_defined) {
+    const auto valley = [](std::span<const double> q, std::span<double> slope) {
+        const double off = q[1] - q[0] * q[0];
+        slope[0] = -400.0 * q[0] * off - 2.0 * (1.0 - q[0]);
+        slope[1] = 200.0 * off;
+        return 100.0 * off * off + (1.0 - q[0]) * (1.0 - q[0]);
+    };
+    const std::vector<double> start{-1.2, 1.0};
+    const Minimum found = quasi_newton(valley, start, 1e-14);
+    EXPECT_NEAR(found.at[0], 1.0, 1e-6);
+    EXPECT_NEAR(found.at[1], 1.0, 1e-6);
+
+    // x - log x, which ends at 0, from far up: its bottom is at 1.
+    const auto walled = [](std::span<const double> q, std::span<double> slope) {
+        if (q[0] <= 0.0) return std::numeric_limits<double>::infinity();
+        slope[0] = 1.0 - 1.0 / q[0];
+        return q[0] - std::log(q[0]);
+    };
+    for (const double from : {1e-3, 1.0, 40.0}) {
+        const Minimum bottom = quasi_newton(walled, std::vector<double>{from}, 1e-14);
+        EXPECT_NEAR(bottom.at[0], 1.0, 1e-6);
+    }
 }
 
 TEST(NelderMead, finds_the_bottom_of_rosenbrocks_valley) {

@@ -1,15 +1,23 @@
-// Minimises a function of a few numbers without derivatives (Nelder and Mead 1965).
-#include "analysis/nelder_mead.h"
+// An oracle: minimises a function of a few numbers without its slope (Nelder and Mead 1965).
+#pragma once
 
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "analysis/quasi_newton.h"
 
 namespace parafovea {
 
-Minimum nelder_mead(const std::function<double(std::span<const double>)>& function,
-                    std::span<const double> start, double step, double tolerance, int evaluations,
-                    double precision) {
+// Starts from a simplex of the given step around start and stops when the values at its corners agree to
+// tolerance and their places to 1e-7 in every number, or after so many evaluations. The function may return
+// any large number where it is not defined. Best restarted from its own answer.
+inline Minimum nelder_mead(const std::function<double(std::span<const double>)>& function,
+                           std::span<const double> start, double step, double tolerance = 1e-10,
+                           int evaluations = 2000) {
     const std::size_t dimensions = start.size();
     assert(dimensions > 0);
     std::vector<Minimum> corners;
@@ -36,7 +44,7 @@ Minimum nelder_mead(const std::function<double(std::span<const double>)>& functi
             double size = 0.0;
             for (std::size_t j = 0; j < dimensions; ++j)
                 size = std::max(size, std::abs(corners.back().at[j] - corners.front().at[j]));
-            if (size < precision) break;
+            if (size < 1e-7) break;
         }
         std::fill(centre.begin(), centre.end(), 0.0);
         for (std::size_t i = 0; i < dimensions; ++i)
