@@ -80,10 +80,13 @@ void main() {
         ivec2 first_pixel = max(ivec2(ceil(max(map.gaze + low - 0.5, vec2(-1.0)))), ivec2(0));
         ivec2 last_pixel = min(ivec2(floor(min(map.gaze + high - 0.5, map.screen_size))), last);
         ivec2 count = max(last_pixel - first_pixel + 1, ivec2(0));
-        // Look at every pixel there.
+        // Look at every pixel there, row by row.
         found = count.x > kMostPixels || count.y > kMostPixels || count.x * count.y > kMostPixels;
-        for (int i = 0; i < count.x * count.y && !found; ++i)
-            found = holds(cell, first_pixel + ivec2(i % count.x, i / count.x));
+        ivec2 pixel = first_pixel;
+        while (!found && pixel.x <= last_pixel.x && pixel.y <= last_pixel.y) {
+            found = holds(cell, pixel);
+            pixel = pixel.x < last_pixel.x ? ivec2(pixel.x + 1, pixel.y) : ivec2(first_pixel.x, pixel.y + 1);
+        }
     }
     if (!found) discard;
     gl_FragDepth = 1.0;
