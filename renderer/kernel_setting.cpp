@@ -119,8 +119,8 @@ void check(const KernelSetting& setting) {
     check_range("width_scale", setting.width_scale, 0.05, 8);
     check_range("height_scale", setting.height_scale, 0.05, 8);
     if (setting.kind == KernelKind::linear_mar) {
-        check_range("mar_slope", setting.mar_slope, 1, 200);
-        check_range("mar_start", setting.mar_start, 0, 0.4);
+        check_range("mar_slope", setting.mar_slope, 0.5, 200);
+        check_range("mar_start", setting.mar_start, 0, 0.7);
         if (setting.as_printed)
             throw std::runtime_error("kernel map: linear_mar has no direction as printed");
     }
@@ -164,8 +164,8 @@ shared::KernelMap make_kernel_map(SizePx screen, PointPx gaze, const KernelSetti
     map.log_max_radius = static_cast<float>(std::log(farthest));
     map.alpha = static_cast<float>(setting.alpha);
     if (setting.kind == KernelKind::linear_mar) {
-        const double start = std::min(setting.mar_start * screen.width, 0.5 * farthest);
-        const double slope = setting.mar_slope / screen.width;
+        const double start = std::min(setting.mar_start * shorter_side_px(screen), 0.5 * farthest);
+        const double slope = setting.mar_slope / shorter_side_px(screen);
         map.mar_slope = static_cast<float>(slope);
         map.mar_start = static_cast<float>(start);
         map.alpha = static_cast<float>(std::log1p(slope * (farthest - start)));

@@ -1,6 +1,7 @@
 // Which kernel log-polar map is wanted, as a protocol says it, and the block that shaders read.
 #pragma once
 
+#include <algorithm>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -32,8 +33,8 @@ struct KernelSetting {
     std::vector<double> betas;  // coefficients of the polynomial kernel; 1 to 8, adding up to 1
     double width_scale = 1;     // the buffer's columns, times this; 0.05 to 8
     double height_scale = 1;    // and its rows: the published shape is 6 times too coarse around the corners
-    double mar_slope = 14;      // linear_mar: k per screen width; 1 to 200
-    double mar_start = 0.04;    // linear_mar: r0, share of the screen's width; 0 to 0.4
+    double mar_slope = 8;       // linear_mar: k for each shorter side of the screen; 0.5 to 200
+    double mar_start = 0.07;    // linear_mar: r0, share of the shorter side; 0 to 0.7
     bool as_printed = false;    // Eq. 10's direction instead of the one that the paper's figures show
 
     bool operator==(const KernelSetting&) const = default;
@@ -41,6 +42,12 @@ struct KernelSetting {
 
 // Throws std::runtime_error, one line, if a value is out of range or the polynomial does not rise on [0, 1].
 void check(const KernelSetting& setting);
+
+// The length that settings tell distances on the screen in: with it one setting asks for nearly the same
+// share of a wide screen's quality and of a tall one's, which KFR's own buffer gives it.
+inline double shorter_side_px(SizePx screen) {
+    return std::min(screen.width, screen.height);
+}
 
 // round(W width_scale / sigma) x round(H height_scale / sigma), at least 1 x 1.
 SizePx buffer_size(SizePx screen, const KernelSetting& setting);

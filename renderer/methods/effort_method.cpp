@@ -25,8 +25,8 @@ std::vector<ShaderConstant> constants_for(const ShadingSource& source, SavedEffo
 shared::EffortFalloff effort_falloff(const RenderMethod& method) {
     MethodParameters parameters(method);
     shared::EffortFalloff falloff{};
-    falloff.slope = static_cast<float>(parameters.number("mar_slope", 10, 0.1, 200));
-    falloff.start = static_cast<float>(parameters.number("mar_start", 0.05, 0, 1));
+    falloff.slope = static_cast<float>(parameters.number("mar_slope", 5.6, 0.1, 200));
+    falloff.start = static_cast<float>(parameters.number("mar_start", 0.09, 0, 1));
     falloff.least = static_cast<float>(parameters.number("least", 0.25, 0.05, 1));
     parameters.check_all_taken();
     return falloff;
@@ -52,8 +52,8 @@ void EffortMethod::prepare(SizePx screen, PointPx gaze) {
     const PointPx usable = usable_gaze(screen, gaze);
     shared::EffortFalloff block = falloff_;
     block.gaze = {static_cast<float>(usable.x), static_cast<float>(usable.y)};
-    block.slope /= static_cast<float>(screen.width);
-    block.start *= static_cast<float>(screen.width);
+    block.slope /= static_cast<float>(shorter_side_px(screen));
+    block.start *= static_cast<float>(shorter_side_px(screen));
     block_.write(block);
 }
 

@@ -10,9 +10,9 @@ namespace parafovea {
 
 enum class SavedEffort { occlusion, steps };
 
-// Parameters: mar_slope (how fast the effort falls, for each screen width of distance), mar_start (from where
-// on, share of the screen's width), least (no less than this share). Slope and start are those of a screen
-// one pixel wide.
+// Parameters: mar_slope (how fast the effort falls, for each shorter side of the screen of distance),
+// mar_start (from where on, share of that side), least (no less than this share). Slope and start are those
+// of a screen one pixel wide.
 shared::EffortFalloff effort_falloff(const RenderMethod& method);
 
 class EffortMethod : public FoveationMethod {

@@ -10,11 +10,13 @@
 #include "shader_code/fullscreen_vert.h"
 #include "shader_code/grid_mask.h"
 #include "shader_code/grid_mask_detail.h"
+#include "shader_code/grid_mask_rings.h"
 #include "shader_code/grid_resolve.h"
 #include "shader_code/grid_resolve_detail.h"
 #include "shader_code/grid_shade_meshes.h"
 #include "shader_code/grid_shade_picture.h"
 #include "shader_code/grid_shade_primitives.h"
+#include "shader_code/ring_predict.h"
 #include "shader_code/tile_detail.h"
 
 namespace parafovea {
@@ -45,6 +47,7 @@ GridMethod::GridMethod(Gpu& gpu, const ShadingSource& source, const GridFormats&
       mask_layout_(make_pipeline_layout(gpu, {sets_.placing.layout()}, sizeof(Jitter))),
       shading_layout_(make_pipeline_layout(gpu, {source.layout, sets_.placing.layout()}, sizeof(Jitter))),
       reading_layout_(make_pipeline_layout(gpu, {sets_.reading.layout()}, sizeof(Jitter))),
+      refining_layout_(make_pipeline_layout(gpu, {sets_.refining.layout()}, sizeof(Jitter))),
       inset_layout_(make_pipeline_layout(gpu, {source.layout, sets_.inset.layout()}, sizeof(Jitter))) {}
 
 void GridMethod::configure(const RenderMethod& method) {
@@ -94,7 +97,8 @@ GridMethod::Pipelines GridMethod::make_pipelines(const GridPlan& plan) const {
     mask.fragment = shader_code::grid_mask;
     mask.constants = joined(constants, {{3, plan.look_at_detail ? 1U : 0U}});
     made.mask[0] = make_graphics_pipeline(gpu_, mask);
-    if (plan.look_at_detail) {
+    const bool tiles_by_detail = plan.look_at_detail && plan.kind == shared::kGridTiles;
+    if (tiles_by_detail) {
         mask.fragment = shader_code::grid_mask_detail;
         mask.constants = joined(constants, {{3, 2}});
         made.mask[1] = make_graphics_pipeline(gpu_, mask);
@@ -111,14 +115,14 @@ GridMethod::Pipelines GridMethod::make_pipelines(const GridPlan& plan) const {
     shading.constants = joined(source_.constants, constants);
     made.shading = make_graphics_pipeline(gpu_, shading);
 
-    if (plan.look_at_detail) {
+    if (plan.look_at_detail && !tiles_by_detail) add_ring_rounds(plan, mask, shading, made);
+    if (tiles_by_detail) {
         made.detail = make_fullscreen_pipeline(gpu_, shader_code::tile_detail, reading_layout_.get(),
                                                {kTileLayerFormat}, constants);
     }
     if (plan.kind != shared::kGridScattered) {
         made.resolve = make_fullscreen_pipeline(
-            gpu_,
-            plan.look_at_detail ? Code(shader_code::grid_resolve_detail) : Code(shader_code::grid_resolve),
+            gpu_, tiles_by_detail ? Code(shader_code::grid_resolve_detail) : Code(shader_code::grid_resolve),
             reading_layout_.get(), {formats_.target}, constants);
     }
     if (plan.grid.inset_px > 0)
@@ -127,16 +131,38 @@ GridMethod::Pipelines GridMethod::make_pipelines(const GridPlan& plan) const {
     return made;
 }
 
+void GridMethod::add_ring_rounds(const GridPlan& plan, const GraphicsPipelineDescription& mask,
+                                 const GraphicsPipelineDescription& shading, Pipelines& made) const {
+    GraphicsPipelineDescription finer_mask = mask;
+    finer_mask.fragment = shader_code::grid_mask_rings;
+    finer_mask.layout = refining_layout_.get();
+    finer_mask.constants = {{0, plan.kind}, {2, plan.culling ? 1U : 0U}, {3, 2}};
+    made.mask[1] = make_graphics_pipeline(gpu_, finer_mask);
+
+    GraphicsPipelineDescription coarse = shading;
+    coarse.constants.push_back({4, 1});
+    made.coarse = make_graphics_pipeline(gpu_, coarse);
+
+    // Runs where the mask is tested, without a test of its own.
+    GraphicsPipelineDescription predict = shading;
+    predict.fragment = shader_code::ring_predict;
+    predict.layout = refining_layout_.get();
+    predict.depth_test = false;
+    predict.constants = {{0, plan.kind}};
+    made.predict = make_graphics_pipeline(gpu_, predict);
+}
+
 void GridMethod::record(const MethodFrame& frame) {
     GridTargets& t = targets();
     frame.timer->start(frame.commands, "pass_1");
-    // A mask that follows the detail is another in every frame.
-    if (t.plan.look_at_detail || t.mask_stale || t.mask_jitter != frame.jitter) record_mask(frame, 0);
-    record_shading(frame, 0);
-    if (t.plan.look_at_detail) {
-        record_detail(frame);
-        record_mask(frame, 1);
-        record_shading(frame, 1);
+    if (t.plan.coarse != SizePx{}) {
+        record_rings_by_detail(frame);
+    } else if (t.plan.look_at_detail) {
+        record_tiles_by_detail(frame);
+    } else {
+        if (t.mask_stale || t.mask_jitter != frame.jitter)
+            record_mask(frame, 0, t.mask, mask_layout_.get(), t.sets.placing.get());
+        record_shading(frame, 0);
     }
     frame.timer->stop(frame.commands);
 
@@ -156,21 +182,60 @@ void GridMethod::record(const MethodFrame& frame) {
     t.fresh = false;
 }
 
-void GridMethod::record_mask(const MethodFrame& frame, std::uint32_t round) {
+// A mask that follows the detail is another in every frame.
+void GridMethod::record_tiles_by_detail(const MethodFrame& frame) {
+    GridTargets& t = targets();
+    record_mask(frame, 0, t.mask, mask_layout_.get(), t.sets.placing.get());
+    record_shading(frame, 0);
+    record_detail(frame);
+    record_mask(frame, 1, t.mask, mask_layout_.get(), t.sets.placing.get());
+    record_shading(frame, 1);
+}
+
+void GridMethod::record_rings_by_detail(const MethodFrame& frame) {
+    GridTargets& t = targets();
+    if (t.mask_stale || t.mask_jitter != frame.jitter)
+        record_mask(frame, 0, t.coarse_mask, mask_layout_.get(), t.sets.placing.get());
+    image_barrier(frame.commands, t.coarse, t.fresh ? kUseNone : kUseSampled, kUseColorTarget);
+    const DepthTarget coarse_depth{.view = t.coarse_mask.view(), .read_only = true};
+    begin_rendering(frame.commands, t.coarse.extent(),
+                    {ColorTarget{.view = t.coarse.view(), .clear = t.fresh}}, &coarse_depth);
+    push_jitter(frame.commands, shading_layout_.get(), frame.jitter);
+    draw_fullscreen(frame.commands, now_->coarse.get(), shading_layout_.get(),
+                    std::array{frame.shading_set, t.sets.placing.get()});
+    vkCmdEndRendering(frame.commands);
+    image_barrier(frame.commands, t.coarse, kUseColorTarget, kUseSampled);
+
+    record_mask(frame, 1, t.mask, refining_layout_.get(), t.sets.refining.get());
+    image_barrier(frame.commands, t.samples, t.fresh ? kUseNone : kUseSampled, kUseColorTarget);
+    const DepthTarget depth{.view = t.mask.view(), .read_only = true};
+    begin_rendering(frame.commands, t.samples.extent(),
+                    {ColorTarget{.view = t.samples.view(), .discard = true}}, &depth);
+    push_jitter(frame.commands, refining_layout_.get(), frame.jitter);
+    draw_fullscreen(frame.commands, now_->predict.get(), refining_layout_.get(),
+                    std::array{t.sets.refining.get()});
+    push_jitter(frame.commands, shading_layout_.get(), frame.jitter);
+    draw_fullscreen(frame.commands, now_->shading.get(), shading_layout_.get(),
+                    std::array{frame.shading_set, t.sets.placing.get()});
+    vkCmdEndRendering(frame.commands);
+    image_barrier(frame.commands, t.samples, kUseColorTarget, kUseSampled);
+}
+
+void GridMethod::record_mask(const MethodFrame& frame, std::uint32_t round, const GpuImage& mask,
+                             VkPipelineLayout layout, VkDescriptorSet set) {
     GridTargets& t = targets();
     t.counts.reset(frame.commands, round);
     ResourceUse before = kUseDepthTest;
     before.layout = VK_IMAGE_LAYOUT_UNDEFINED;
-    image_barrier(frame.commands, t.mask, before, kUseDepthTarget);
-    const DepthTarget depth{.view = t.mask.view(), .clear = true, .clear_depth = 0};
-    begin_rendering(frame.commands, t.mask.extent(), {}, &depth);
+    image_barrier(frame.commands, mask, before, kUseDepthTarget);
+    const DepthTarget depth{.view = mask.view(), .clear = true, .clear_depth = 0};
+    begin_rendering(frame.commands, mask.extent(), {}, &depth);
     t.counts.begin(frame.commands, round);
-    push_jitter(frame.commands, mask_layout_.get(), frame.jitter);
-    draw_fullscreen(frame.commands, now_->mask[round].get(), mask_layout_.get(),
-                    std::array{t.sets.placing.get()});
+    push_jitter(frame.commands, layout, frame.jitter);
+    draw_fullscreen(frame.commands, now_->mask[round].get(), layout, std::array{set});
     t.counts.end(frame.commands, round);
     vkCmdEndRendering(frame.commands);
-    image_barrier(frame.commands, t.mask, kUseDepthTarget, kUseDepthTest);
+    image_barrier(frame.commands, mask, kUseDepthTarget, kUseDepthTest);
     t.mask_stale = false;
     t.mask_jitter = frame.jitter;
 }
@@ -235,7 +300,7 @@ MethodStatistics GridMethod::statistics() const {
     note(tiles, "coarse pixels", "tiles of 16x16 in one of three reductions, drawn by shaders",
          "not part of this method");
     note(t.plan.look_at_detail, "samples by detail",
-         "tiles whose coarse samples show too little contrast get no finer ones", "not part of this method");
+         "where coarse samples show too little contrast there are no finer ones", "not asked for");
     note(scattered, "pull-push", "fills the pixels that are not shaded", "not part of this method");
     if (tiles)
         statistics.left_out.push_back({"VK_KHR_fragment_shading_rate", "the same rates on every device"});

@@ -25,7 +25,9 @@ class GridMethod : public FoveationMethod {
   private:
     struct Pipelines {
         std::array<OwnedPipeline, 2> mask;  // of each round
-        OwnedPipeline detail;
+        OwnedPipeline detail;               // tiles by detail
+        OwnedPipeline coarse;               // rings by detail: shades the first round
+        OwnedPipeline predict;              // and guesses the second
         OwnedPipeline shading;
         OwnedPipeline resolve;
         OwnedPipeline inset;
@@ -34,8 +36,13 @@ class GridMethod : public FoveationMethod {
 
     Pipelines make_pipelines(const GridPlan& plan) const;
     GridTargets& targets() { return *targets_.front(); }
-    void record_mask(const MethodFrame& frame, std::uint32_t round);
+    void add_ring_rounds(const GridPlan& plan, const GraphicsPipelineDescription& mask,
+                         const GraphicsPipelineDescription& shading, Pipelines& made) const;
+    void record_mask(const MethodFrame& frame, std::uint32_t round, const GpuImage& mask,
+                     VkPipelineLayout layout, VkDescriptorSet set);
     void record_shading(const MethodFrame& frame, std::uint32_t round);
+    void record_tiles_by_detail(const MethodFrame& frame);
+    void record_rings_by_detail(const MethodFrame& frame);
     void record_detail(const MethodFrame& frame);
     void record_reading(const MethodFrame& frame);
 
@@ -48,6 +55,7 @@ class GridMethod : public FoveationMethod {
     OwnedPipelineLayout mask_layout_;
     OwnedPipelineLayout shading_layout_;
     OwnedPipelineLayout reading_layout_;
+    OwnedPipelineLayout refining_layout_;
     OwnedPipelineLayout inset_layout_;
     std::map<PipelineKey, Pipelines> pipelines_;
     std::list<std::unique_ptr<GridTargets>> targets_;  // the last used first, so that settings may take turns

@@ -15,9 +15,10 @@ struct GridPlan {
     shared::SampleGrid grid{};
     std::vector<float> samples_of_row;  // rings: how many samples each row of the buffer holds
     SizePx buffer;                      // the same for every gaze
+    SizePx coarse;                      // rings by detail: of the first round's buffer; empty otherwise
     bool culling = true;                // only samples that a pixel reads are shaded
     bool interpolate_tiles = false;     // tiles: smooth instead of blocks
-    bool look_at_detail = false;        // tiles: finer samples only where there is something to see
+    bool look_at_detail = false;        // finer samples only where there is something to see
 };
 
 // Reads a method's parameters (all that it knows) and lays out its samples. Throws std::runtime_error with
@@ -28,8 +29,10 @@ using GridPlanner = GridPlan (*)(MethodParameters& parameters, SizePx screen, Po
 // everywhere.
 SampleSpacing spacing_of(const GridPlan& plan, PointPx position);
 
-// Warped grids. Parameters of rings: mar_slope, mar_start (as the kernel linear_mar has them), culling; of
-// the others: sigma, culling, and focus of rmfr (0: no coarser than a pixel at the gaze).
+// Warped grids. Parameters of rings: mar_slope, mar_start (as the kernel linear_mar has them), adaptive and
+// detail (a first round of every other sample of every other ring; the others only where it shows contrast
+// of more than `detail` for each pixel of spacing, between square roots of light), culling; of the others:
+// sigma, culling, and focus of rmfr (0: no coarser than a pixel at the gaze).
 GridPlan plan_rings(MethodParameters& parameters, SizePx screen, PointPx gaze);
 GridPlan plan_rmfr(MethodParameters& parameters, SizePx screen, PointPx gaze);
 GridPlan plan_log_rectilinear(MethodParameters& parameters, SizePx screen, PointPx gaze);

@@ -30,6 +30,7 @@ SizePx tiles_of(SizePx screen) {
 GridSets::GridSets(Gpu& gpu)
     : placing(gpu, {kGridBlock, kRows, kTileLayers}),
       reading(gpu, {kGridBlock, kRows, kTileLayers, kSamples}),
+      refining(gpu, {kGridBlock, kRows, kTileLayers, kSamples}),
       inset(gpu, {kGridBlock}) {}
 
 GridTargets::GridTargets(Gpu& gpu, const GridFormats& formats, const RenderMethod& wanted,
@@ -50,17 +51,25 @@ GridTargets::GridTargets(Gpu& gpu, const GridFormats& formats, const RenderMetho
                                  .address_u = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
                                  .address_v = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE})),
       nearest(make_sampler(gpu, {.filter = VK_FILTER_NEAREST, .mipmap = VK_SAMPLER_MIPMAP_MODE_NEAREST})) {
-    for (DescriptorSet* set : {&sets.placing, &sets.reading}) {
+    for (DescriptorSet* set : {&sets.placing, &sets.reading, &sets.refining}) {
         set->set_buffer(0, grid);
         set->set_buffer(1, samples_of_row);
     }
     sets.reading.set_sampled_image(3, samples.view(), sampler.get());
     sets.inset.set_buffer(0, inset_map);
     // Something stands at every binding, read or not.
-    layer_of_tile = image_of(gpu, plan.look_at_detail ? tiles_of(screen) : SizePx{1, 1}, kTileLayerFormat,
-                             VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT);
-    for (DescriptorSet* set : {&sets.placing, &sets.reading})
+    layer_of_tile =
+        image_of(gpu, plan.kind == shared::kGridTiles ? tiles_of(screen) : SizePx{1, 1}, kTileLayerFormat,
+                 VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT);
+    for (DescriptorSet* set : {&sets.placing, &sets.reading, &sets.refining})
         set->set_sampled_image(2, layer_of_tile.view(), nearest.get());
+    if (plan.coarse != SizePx{}) {
+        coarse = image_of(gpu, plan.coarse, formats.samples,
+                          VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT);
+        coarse_mask =
+            image_of(gpu, plan.coarse, kGridMaskFormat, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT);
+        sets.refining.set_sampled_image(3, coarse.view(), sampler.get());
+    }
     if (plan.kind == shared::kGridScattered) fill = std::make_unique<PullPush>(gpu, samples, formats.target);
 }
 

@@ -23,9 +23,10 @@ struct GridFormats {
 struct GridSets {
     explicit GridSets(Gpu& gpu);
 
-    DescriptorSet placing;  // 0: grid, 1: samples of each row, 2: layer of each tile
-    DescriptorSet reading;  // and 3: the samples
-    DescriptorSet inset;    // 0: kernel map block (gaze and size of the inset)
+    DescriptorSet placing;   // 0: grid, 1: samples of each row, 2: layer of each tile
+    DescriptorSet reading;   // and 3: the samples
+    DescriptorSet refining;  // of placing, and 3: the coarse samples of rings by detail
+    DescriptorSet inset;     // 0: kernel map block (gaze and size of the inset)
 };
 
 class GridTargets {
@@ -51,9 +52,11 @@ class GridTargets {
     GpuBuffer inset_map;
     GpuImage mask;           // depth 1 where a texel is needed, else 0
     GpuImage samples;        // what is shaded
-    GpuImage layer_of_tile;  // with detail
-    SampleCounter counts;    // 0 and 1: texels needed in each round, 2: pixels of the inset
-    OwnedSampler sampler;    // linear, clamped
+    GpuImage layer_of_tile;  // tiles by detail
+    GpuImage coarse;         // rings by detail: what the first round shades, and its mask
+    GpuImage coarse_mask;
+    SampleCounter counts;  // 0 and 1: texels needed in each round, 2: pixels of the inset
+    OwnedSampler sampler;  // linear, clamped
     OwnedSampler nearest;
     std::unique_ptr<PullPush> fill;  // of a scattered grid
 

@@ -62,10 +62,10 @@ KfrSetting kfr_setting(const RenderMethod& method) {
     setting.post_filter_cap =
         static_cast<int>(parameters.number("post_filter_cap", setting.post_filter_cap, 3, 39)) | 1;
     const bool mar = setting.kernel.kind == KernelKind::linear_mar;
-    setting.inset = parameters.number("inset", mar ? setting.kernel.mar_start + 0.01 : 0, 0, 0.5);
-    if (mar && setting.inset < setting.kernel.mar_start + 0.009) {
+    setting.inset = parameters.number("inset", mar ? setting.kernel.mar_start + 0.018 : 0, 0, 0.9);
+    if (mar && setting.inset < setting.kernel.mar_start + 0.017) {
         throw std::runtime_error(
-            "method kfr: with the kernel linear_mar the inset is at least mar_start + 0.01");
+            "method kfr: with the kernel linear_mar the inset is at least mar_start + 0.018");
     }
     parameters.check_all_taken();
     return setting;

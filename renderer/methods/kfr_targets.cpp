@@ -61,7 +61,7 @@ void KfrTargets::set_gaze(PointPx wanted) {
     has_gaze_ = true;
     mask_stale = true;
     block = make_kernel_map(screen, gaze, setting.kernel);
-    block.inset_px = static_cast<float>(setting.inset * screen.width);
+    block.inset_px = static_cast<float>(setting.inset * shorter_side_px(screen));
     block.inset_rim_px = std::min(kLargestRimPx, 0.5f * block.inset_px);
     map.write(block);
 }

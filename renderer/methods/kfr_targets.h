@@ -14,7 +14,7 @@ struct KfrSetting {
     bool internal_filter = true;  // 3x3 Gaussian over the peripheral half of the buffer
     bool post_filter = false;     // Eq. 14 on the screen
     int post_filter_cap = 11;     // its largest width in pixels, odd
-    double inset = 0;  // radius of the disc at full resolution, share of the screen's width; 0: none
+    double inset = 0;  // radius of the disc at full resolution, share of the screen's shorter side; 0: none
 
     bool operator==(const KfrSetting&) const = default;
 };

@@ -135,7 +135,7 @@ GridPlan plan_quad_views(MethodParameters& parameters, SizePx screen, PointPx ga
 }
 
 GridPlan plan_swafford_resolution(MethodParameters& parameters, SizePx screen, PointPx gaze) {
-    const double radius = parameters.number("radius", 0.15, 0.01, 1) * screen.width;
+    const double radius = parameters.number("radius", 0.27, 0.01, 2) * shorter_side_px(screen);
     const double density = parameters.number("density", 0.5, 0.02, 1);
     const double blend = parameters.number("blend", 0.2, 0.01, 1);
     const bool culling = parameters.flag("culling", true);

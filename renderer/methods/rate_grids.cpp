@@ -7,8 +7,8 @@ namespace parafovea {
 namespace {
 
 struct Falloff {
-    double slope = 15;    // how fast the spacing grows, for each screen width of distance
-    double start = 0.02;  // from where on, share of the screen's width
+    double slope = 8.4;    // how fast the spacing grows, for each shorter side of the screen of distance
+    double start = 0.036;  // from where on, share of that side
 };
 
 GridPlan on_screen(MethodParameters& parameters, SizePx screen, PointPx wanted_gaze,
@@ -18,8 +18,10 @@ GridPlan on_screen(MethodParameters& parameters, SizePx screen, PointPx wanted_g
     shared::SampleGrid& grid = plan.grid;
     grid.screen_size = {static_cast<float>(screen.width), static_cast<float>(screen.height)};
     grid.gaze = {static_cast<float>(gaze.x), static_cast<float>(gaze.y)};
-    grid.slope = static_cast<float>(parameters.number("mar_slope", otherwise.slope, 0.1, 200) / screen.width);
-    grid.start = static_cast<float>(parameters.number("mar_start", otherwise.start, 0, 1) * screen.width);
+    grid.slope = static_cast<float>(parameters.number("mar_slope", otherwise.slope, 0.1, 200) /
+                                    shorter_side_px(screen));
+    grid.start =
+        static_cast<float>(parameters.number("mar_start", otherwise.start, 0, 2) * shorter_side_px(screen));
     plan.buffer = screen;
     grid.buffer_size = grid.screen_size;
     return plan;
@@ -59,18 +61,18 @@ GridPlan plan_cps(MethodParameters& parameters, SizePx screen, PointPx gaze) {
 }
 
 GridPlan plan_mrs(MethodParameters& parameters, SizePx screen, PointPx gaze) {
-    GridPlan plan = tiles(parameters, screen, gaze, {.slope = 8, .start = 0.04}, true);
+    GridPlan plan = tiles(parameters, screen, gaze, {.slope = 4.5, .start = 0.07}, true);
     plan.look_at_detail = true;
     plan.grid.detail = static_cast<float>(parameters.number("detail", 0.04, 0, 1));
     return plan;
 }
 
 GridPlan plan_patney(MethodParameters& parameters, SizePx screen, PointPx gaze) {
-    return tiles(parameters, screen, gaze, {.slope = 25, .start = 0.02}, true);
+    return tiles(parameters, screen, gaze, {.slope = 14, .start = 0.036}, true);
 }
 
 GridPlan plan_ais(MethodParameters& parameters, SizePx screen, PointPx gaze) {
-    GridPlan plan = on_screen(parameters, screen, gaze, {.slope = 8, .start = 0.05});
+    GridPlan plan = on_screen(parameters, screen, gaze, {.slope = 4.5, .start = 0.09});
     plan.kind = shared::kGridScattered;
     return plan;
 }

@@ -62,8 +62,10 @@ shared::GridAxis log_axis(double screen, double buffer, double gaze) {
 }  // namespace
 
 GridPlan plan_rings(MethodParameters& parameters, SizePx screen, PointPx wanted_gaze) {
-    const double slope = parameters.number("mar_slope", 14, 1, 200) / screen.width;
-    const double start = parameters.number("mar_start", 0.0234, 0, 0.4) * screen.width;
+    const double slope = parameters.number("mar_slope", 6, 0.5, 200) / shorter_side_px(screen);
+    const double start = parameters.number("mar_start", 0.015, 0, 0.7) * shorter_side_px(screen);
+    const bool adaptive = parameters.flag("adaptive", false);
+    const double detail = parameters.number("detail", 0.025, 0, 1);
     GridPlan plan;
     plan.kind = shared::kGridRings;
     plan.culling = parameters.flag("culling", true);
@@ -77,15 +79,19 @@ GridPlan plan_rings(MethodParameters& parameters, SizePx screen, PointPx wanted_
     const auto samples_of = [&](double ring) {
         const double r = start + std::expm1(slope * (ring + 0.5)) / slope;
         const double around = 2 * std::numbers::pi * r / (1 + slope * std::max(r - start, 0.0));
-        return std::max(std::ceil(around), 3.0);
+        // In pairs, of which the first round takes one.
+        return adaptive ? 2 * std::max(std::ceil(around / 2), 2.0) : std::max(std::ceil(around), 3.0);
     };
 
     // As many rings as the farthest a gaze on the screen can ask for; one beyond the screen asks for fewer,
     // but farther ones.
-    const int rows = static_cast<int>(std::ceil(ring_at(diagonal))) + 4;
+    int rows = static_cast<int>(std::ceil(ring_at(diagonal))) + 4;
+    if (adaptive) rows |= 1;  // the first and the last are coarse ones
     const double first = std::max(std::floor(ring_at(nearest)) - 1, 0.0);
     const double most = std::max(2 * std::numbers::pi * start, 2 * std::numbers::pi / slope);
     plan.buffer = {static_cast<int>(std::ceil(most)) + 4, rows};
+    plan.look_at_detail = adaptive;
+    if (adaptive) plan.coarse = {plan.buffer.width / 2 + 2, rows / 2 + 1};
     for (int row = 0; row < rows; ++row)
         plan.samples_of_row.push_back(static_cast<float>(samples_of(first + row)));
 
@@ -94,6 +100,7 @@ GridPlan plan_rings(MethodParameters& parameters, SizePx screen, PointPx wanted_
     plan.grid.start = static_cast<float>(start);
     plan.grid.first_ring = static_cast<float>(first);
     plan.grid.rings = static_cast<float>(rows);
+    plan.grid.detail = adaptive ? static_cast<float>(detail) : 0;
     plan.grid.inset_px = static_cast<float>(start + kInsetRimPx);
     plan.grid.inset_rim_px = static_cast<float>(kInsetRimPx);
     return plan;

@@ -3,14 +3,22 @@
 #version 460
 #define METHOD_SET 0
 #include "sample_grid.glsl"
+#ifdef REFINE_RINGS
+#include "grid_rings_coarse.glsl"
+#endif
 
 layout(constant_id = 2) const uint kCulling = 1u;
-// With detail: 1: only the coarsest layer, by which the detail is judged; 2: only the finer ones. Else 0.
+// With detail: 1: only the coarsest samples, by which the detail is judged; 2: only the finer ones. Else 0.
 layout(constant_id = 3) const uint kRound = 0u;
 
 // Rounding may differ between this shader and the one that reads: a footprint counts as a little larger.
 const float kReach = 1.0 + 1.0 / 128.0;
 const int kMostPixels = 1024;
+// How many samples around a coarse ring's one ask it whether they are needed and what they are; generously.
+const float kCoarseReach = 5.0;
+// Around the gaze, where samples are no farther apart than this, all are needed.
+const float kAlwaysBelow = 1.25;
+const float kReachOfRound = kRound == 1u ? kCoarseReach : kReach;
 
 // Rings: whether a pixel reads a texel.
 bool reads_ring(ivec2 pixel, vec2 texel, float count) {
@@ -20,7 +28,10 @@ bool reads_ring(ivec2 pixel, vec2 texel, float count) {
     if (distance_px < grid.inset_px - grid.inset_rim_px - 0.01) return false;
     float row = ring_at(grid.slope, grid.start, distance_px) - grid.first_ring - jitter.y;
     float column = 1.0 + turns_of(away.x, away.y) * count - jitter.x;
-    return abs(clamp(row, 0.0, grid.rings - 1.0) - (texel.y - 0.5)) < kReach && abs(column - texel.x) < kReach;
+    float apart = column - texel.x;
+    // Coarse rows overlap by less than what is asked.
+    if (kRound == 1u) apart -= count * round(apart / count);
+    return abs(clamp(row, 0.0, grid.rings - 1.0) - (texel.y - 0.5)) < kReachOfRound && abs(apart) < kReachOfRound;
 }
 
 bool needed_ring(vec2 texel) {
@@ -36,9 +47,9 @@ bool needed_ring(vec2 texel) {
     if (reads_ring(clamp(ivec2(floor(position)), ivec2(0), last), texel, count)) return true;
 
     // Bound the part of the plane from which the texel can be read.
-    float inner = texel.y < 1.0 ? 0.0 : max(radius_of_ring(grid.slope, grid.start, ring - kReach), 0.0);
-    float outer = radius_of_ring(grid.slope, grid.start, ring + kReach) + 0.01;
-    float half_turns = kReach / count;
+    float inner = texel.y < kReachOfRound ? 0.0 : max(radius_of_ring(grid.slope, grid.start, ring - kReachOfRound), 0.0);
+    float outer = radius_of_ring(grid.slope, grid.start, ring + kReachOfRound) + 0.01;
+    float half_turns = kReachOfRound / count;
     vec2 low = -vec2(outer);
     vec2 high = vec2(outer);
     if (half_turns < 0.125) {
@@ -59,6 +70,28 @@ bool needed_ring(vec2 texel) {
     }
     return found;
 }
+
+#ifdef REFINE_RINGS
+// Whether the coarse samples around a texel show more contrast than passes unseen there.
+bool shows_detail(vec2 texel) {
+    float spacing = spacing_at(grid.slope, grid.start, radius_of_ring(grid.slope, grid.start, grid.first_ring + texel.y - 0.5));
+    if (spacing < kAlwaysBelow) return true;
+    float turns = turns_of_texel(texel);
+    int middle = int(texel.y) / 2;
+    int first = int(texel.y) % 2 == 1 ? middle : max(middle - 1, 0);
+    int last = min(middle + 1, last_coarse_row());
+    vec3 darkest = vec3(1.0);
+    vec3 brightest = vec3(0.0);
+    for (int row = first; row <= last; ++row) {
+        int column = int(floor(column_at(row, turns)));
+        vec3 a = sqrt(texelFetch(coarse, ivec2(column, row), 0).rgb);
+        vec3 b = sqrt(texelFetch(coarse, ivec2(column + 1, row), 0).rgb);
+        darkest = min(darkest, min(a, b));
+        brightest = max(brightest, max(a, b));
+    }
+    return dot(brightest - darkest, vec3(0.2126, 0.7152, 0.0722)) > grid.detail * spacing;
+}
+#endif
 
 // Whether some pixel of a row or column of the screen reads a texel of an axis.
 bool needed_axis(GridAxis axis, float texel, float screen) {
@@ -113,7 +146,11 @@ void main() {
     vec2 texel = gl_FragCoord.xy;
     bool needed = true;
     if (kGrid == kGridRings) {
-        needed = needed_ring(texel);
+#ifdef REFINE_RINGS
+        needed = !is_coarse(ivec2(texel)) && texel.x < samples_of_row[int(texel.y)] + 2.0 && shows_detail(texel) && needed_ring(texel);
+#else
+        needed = needed_ring(kRound == 1u ? texel_of_coarse(floor(texel.x), floor(texel.y)) : texel);
+#endif
     } else if (axes_grid()) {
         needed = kCulling == 0u || (needed_axis(grid.axis_x, texel.x + jitter.x, grid.screen_size.x) &&
                                     needed_axis(grid.axis_y, texel.y + jitter.y, grid.screen_size.y));

@@ -4,10 +4,13 @@
 #include "shade.glsl"
 #include "sample_grid.glsl"
 
+// Rings by detail: 1: the coarse samples, in a buffer of their own.
+layout(constant_id = 4) const uint kCoarse = 0u;
+
 layout(location = 0) out vec4 color;
 
 void main() {
-    vec2 texel = gl_FragCoord.xy;
+    vec2 texel = kCoarse == 1u ? texel_of_coarse(floor(gl_FragCoord.x), floor(gl_FragCoord.y)) : gl_FragCoord.xy;
     vec2 position = texel + jitter;
     vec2 spacing = vec2(1.0);
     if (kGrid == kGridRings) {

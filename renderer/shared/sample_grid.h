@@ -68,7 +68,9 @@ struct SampleGrid {
     float inset_px;    // radius of the disc that is drawn at full resolution; 0: none
     float inset_rim_px;
     float layer_count;
-    float detail;  // tiles: contrast below which a tile needs no finer samples; 0: contrast is not looked at
+    // Tiles and rings: contrast, of square roots of light, below which no finer samples are needed, for each
+    // pixel of spacing; 0: contrast is not looked at.
+    float detail;
     float pad_0;
     float pad_1;
     GridAxis axis_x;
@@ -89,6 +91,16 @@ SHARED_FUNCTION float ring_at(float slope, float start, float distance_px) {
 }
 SHARED_FUNCTION float radius_of_ring(float slope, float start, float ring) {
     return start + (natural_exp(slope * (ring + 0.5f)) - 1.0f) / slope;
+}
+
+// Rings by detail: a buffer of every other sample of every other ring. Where one of its texels, told by the
+// whole numbers of its column and row, is among all samples; and which of its columns, whole numbers being
+// texels, lies in a direction, for a ring of `count` samples.
+SHARED_FUNCTION vec2 texel_of_coarse(float column, float row) {
+    return vec2(2.0f * column - 0.5f, 2.0f * row + 0.5f);
+}
+SHARED_FUNCTION float coarse_column(float turns, float count) {
+    return 0.5f * turns * count + 0.75f;
 }
 
 // One axis: screen to buffer, for a position between the screen's edges. Rectangular: with d the distance

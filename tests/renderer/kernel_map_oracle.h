@@ -33,9 +33,10 @@ struct Map {
     }
 
     // The linear-MAR kernel: u / w = ln(1 + k (r - r0)) / ln(1 + k (R - r0)).
-    Real mar_slope() const { return Real{setting.mar_slope} / screen.width; }
+    Real mar_slope() const { return Real{setting.mar_slope} / std::min(screen.width, screen.height); }
     Real mar_start() const {
-        return std::fmin(Real{setting.mar_start} * screen.width, std::exp(log_radius) / 2);
+        return std::fmin(Real{setting.mar_start} * std::min(screen.width, screen.height),
+                         std::exp(log_radius) / 2);
     }
     Real mar_span() const { return std::log(1 + mar_slope() * (std::exp(log_radius) - mar_start())); }
 
