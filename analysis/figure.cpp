@@ -1,6 +1,7 @@
 // What all figures share: palette, fonts, and one gnuplot body drawn as SVG, PDF and PNG.
 #include "analysis/figure.h"
 
+#include <algorithm>
 #include <array>
 #include <fstream>
 #include <iterator>
@@ -57,10 +58,13 @@ std::string figure_script(const std::filesystem::path& stem, const FigureSize& s
     draw("set terminal pdfcairo size " + size_cm +
              " enhanced font 'DejaVu Sans,8' linewidth 1.4 fontscale 1.0",
          ".pdf");
-    constexpr double kPngPixelsPerCm = 120.0;  // 305 dpi; letters, lines and points below are sized for it
-    draw("set terminal pngcairo size " + fixed_text(size.width_cm * kPngPixelsPerCm, 0) + "," +
-             fixed_text(size.height_cm * kPngPixelsPerCm, 0) +
-             " enhanced font 'DejaVu Sans,12' fontscale 2.1 linewidth 2.9 pointscale 2.4",
+    // 300 dpi when printed, and no wider than a page's text of 6.5 inches; letters, lines and points are of
+    // the same share of the picture in all figures of one width.
+    const double pixels_per_cm = 1950.0 / std::max(size.width_cm, 16.51);
+    const auto scaled = [&](double at_118) { return fixed_text(at_118 * pixels_per_cm / 118.1, 3); };
+    draw("set terminal pngcairo size " + fixed_text(size.width_cm * pixels_per_cm, 0) + "," +
+             fixed_text(size.height_cm * pixels_per_cm, 0) + " enhanced font 'DejaVu Sans,12' fontscale " +
+             scaled(2.067) + " linewidth " + scaled(2.854) + " pointscale " + scaled(2.362),
          ".png");
     return script;
 }

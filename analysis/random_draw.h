@@ -13,13 +13,13 @@
 namespace parafovea {
 
 // A whole number in [0, bound), unbiased: the multiply-and-reject draw of Lemire 2019, "Fast random integer
-// generation".
+// generation", which divides only where it may have to reject.
 inline std::uint32_t draw_below(std::mt19937_64& generator, std::uint32_t bound) {
     assert(bound > 0);
-    const std::uint32_t reject_below = (0u - bound) % bound;
     for (;;) {
         const std::uint64_t product = (generator() >> 32) * bound;
-        if (static_cast<std::uint32_t>(product) >= reject_below)
+        const auto remainder = static_cast<std::uint32_t>(product);
+        if (remainder >= bound || remainder >= (0u - bound) % bound)
             return static_cast<std::uint32_t>(product >> 32);
     }
 }

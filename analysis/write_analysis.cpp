@@ -78,6 +78,7 @@ AnalysisFiles write_analysis(const StudyTally& tallies, const StudyDescription& 
     const std::string main_figure = study.is_pilot ? "figure9" : "figure10";
     const std::vector<Figure> figures = figures_of(tally, study, recordings, results, main_figure, out);
     std::future<void> drawn = std::async(std::launch::async, [&] {
+        // One gnuplot each: what one figure sets would show in the next.
         parallel_for(figures.size(), [&](std::size_t i) { run_gnuplot(figures[i].script); });
     });
 
@@ -100,15 +101,6 @@ AnalysisFiles write_analysis(const StudyTally& tallies, const StudyDescription& 
         files.written.push_back(out / name);
         return out / name;
     };
-    drawn.get();
-    for (const Figure& figure : figures) {
-        for (const auto& file : figure_files(out / figure.name)) files.written.push_back(file);
-        results.figures.push_back({figure.name, inline_svg(figure_files(out / figure.name).front(),
-                                                           figure.name + "_", figure.description)});
-    }
-    files.figure = figure_files(out / main_figure).front();
-
-    // Write the tables, and the report that holds them all.
     write(main_figure + ".csv", condition_csv(results.conditions));
     files.table = write("table1.csv", cochran_csv(results.cochran));
     write("table1.md", cochran_markdown(results.cochran, study.title, study.data_origin));
@@ -123,6 +115,15 @@ AnalysisFiles write_analysis(const StudyTally& tallies, const StudyDescription& 
     if (!results.without_exclusions.empty())
         write("exclusions.csv", exclusion_csv(results.conditions, results.without_exclusions));
     if (!recordings.sessions.empty()) write("quality.csv", quality_csv(recordings));
+
+    // The report holds the figures.
+    drawn.get();
+    for (const Figure& figure : figures) {
+        for (const auto& file : figure_files(out / figure.name)) files.written.push_back(file);
+        results.figures.push_back({figure.name, inline_svg(figure_files(out / figure.name).front(),
+                                                           figure.name + "_", figure.description)});
+    }
+    files.figure = figure_files(out / main_figure).front();
     files.report = write("report.html", report_html(tally, study, recordings, results));
     return files;
 }

@@ -50,7 +50,7 @@ std::optional<double> RecordingCount::add(const TrialRow& trial, SessionSurvey& 
     }
     Session& session = open_.back();
 
-    const std::vector<GazeDirection> gaze = survey.gaze_directions(trial.planned.number, trial.attempt);
+    const std::vector<GazeDirection> gaze = survey.gaze_directions(trial.shown);
     std::int64_t samples = 0, tracked = 0;
     for (const IntervalRecord& interval : trial.intervals) {
         if (!shows_picture(interval.phase)) continue;
@@ -68,7 +68,7 @@ std::optional<double> RecordingCount::add(const TrialRow& trial, SessionSurvey& 
     session.samples += samples;
     session.tracked += tracked;
 
-    const std::vector<FrameTime> frames = survey.frame_times(trial.planned.number, trial.attempt);
+    const std::vector<FrameTime> frames = survey.frame_times(trial.shown);
     for (std::size_t i = 0; i < frames.size(); ++i) {
         if (!shows_picture(frames[i].phase)) continue;
         if (frames[i].gaze_age)

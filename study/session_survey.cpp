@@ -8,15 +8,25 @@
 #include "study/session_rows.h"
 
 namespace parafovea {
-namespace {
 
-// A statement that is prepared once and run for every showing.
-Statement& prepared(Database& database, std::unique_ptr<Statement>& statement, const char* sql) {
-    if (!statement) statement = std::make_unique<Statement>(database.prepare(sql));
-    return statement->reset();
-}
+// The rows of a table in the order of its showings, taken one showing at a time.
+class SessionSurvey::Rows {
+  public:
+    // The first column is the trial_id.
+    Rows(Database& database, const char* sql) : row_(database.prepare(sql)), more_(row_.step()) {}
 
-}  // namespace
+    template <typename Take>
+    void take(int shown, Take&& take_row) {
+        const std::int64_t trial_id = shown + 1;
+        for (; more_ && row_.integer(0) < trial_id; more_ = row_.step()) {
+        }
+        for (; more_ && row_.integer(0) == trial_id; more_ = row_.step()) take_row(row_);
+    }
+
+  private:
+    Statement row_;
+    bool more_;
+};
 
 SessionSurvey::SessionSurvey(const std::filesystem::path& path) : database_(open_for_reading(path)) {}
 
@@ -44,33 +54,31 @@ SessionHead SessionSurvey::head() {
     return head;
 }
 
-std::vector<FrameTime> SessionSurvey::frame_times(int trial_number, int attempt) {
+std::vector<FrameTime> SessionSurvey::frame_times(int shown) {
+    if (!frames_)
+        frames_ = std::make_unique<Rows>(
+            *database_,
+            "SELECT trial_id, phase, display_host_ns, gaze_age_ns FROM frame ORDER BY trial_id, frame");
     std::vector<FrameTime> frames;
-    Statement& row = prepared(
-        *database_, frames_,
-        "SELECT phase, display_host_ns, gaze_age_ns FROM trial JOIN frame USING (trial_id) WHERE trial = ? "
-        "AND attempt = ? ORDER BY frame");
-    row.bind_all(trial_number, attempt);
-    while (row.step()) {
-        FrameTime frame{static_cast<Phase>(row.integer(0)), {row.integer(1)}, {}};
-        if (const auto age = row.optional_integer(2)) frame.gaze_age = Duration{*age};
+    frames_->take(shown, [&](const Statement& row) {
+        FrameTime frame{static_cast<Phase>(row.integer(1)), {row.integer(2)}, {}};
+        if (const auto age = row.optional_integer(3)) frame.gaze_age = Duration{*age};
         frames.push_back(frame);
-    }
+    });
     return frames;
 }
 
-std::vector<GazeDirection> SessionSurvey::gaze_directions(int trial_number, int attempt) {
+std::vector<GazeDirection> SessionSurvey::gaze_directions(int shown) {
+    if (!gaze_)
+        gaze_ = std::make_unique<Rows>(
+            *database_,
+            "SELECT trial_id, host_ns, azimuth_deg, elevation_deg FROM gaze ORDER BY trial_id, n");
     std::vector<GazeDirection> samples;
-    Statement& row = prepared(
-        *database_, gaze_,
-        "SELECT host_ns, azimuth_deg, elevation_deg FROM trial JOIN gaze USING (trial_id) WHERE trial = ? "
-        "AND attempt = ? ORDER BY n");
-    row.bind_all(trial_number, attempt);
-    while (row.step()) {
-        GazeDirection sample{{row.integer(0)}, {}};
-        if (!row.is_null(1)) sample.direction = DirectionDeg{row.real(1), row.real(2)};
+    gaze_->take(shown, [&](const Statement& row) {
+        GazeDirection sample{{row.integer(1)}, {}};
+        if (!row.is_null(2)) sample.direction = DirectionDeg{row.real(2), row.real(3)};
         samples.push_back(sample);
-    }
+    });
     return samples;
 }
 

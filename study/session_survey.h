@@ -16,7 +16,6 @@
 namespace parafovea {
 
 class Database;
-class Statement;
 
 // Whose session of which study it is.
 struct SessionHead {
@@ -49,13 +48,15 @@ class SessionSurvey {
 
     SessionHead head();
 
-    // Of one showing, in the order they came.
-    std::vector<FrameTime> frame_times(int trial_number, int attempt);
-    std::vector<GazeDirection> gaze_directions(int trial_number, int attempt);
+    // Of one showing (TrialRow::shown), in the order they came. Each table is read once from its beginning to
+    // its end: ask for showings in the order shown.
+    std::vector<FrameTime> frame_times(int shown);
+    std::vector<GazeDirection> gaze_directions(int shown);
 
   private:
+    class Rows;
     std::unique_ptr<Database> database_;
-    std::unique_ptr<Statement> frames_, gaze_;  // prepared at their first use
+    std::unique_ptr<Rows> frames_, gaze_;  // absent before their first use
 };
 
 }  // namespace parafovea
