@@ -39,7 +39,9 @@ Cell cell_of(vec2 texel, float reach) {
 bool holds(Cell cell, ivec2 pixel) {
     vec2 d = vec2(pixel) + 0.5 - map.gaze;
     float squared = dot(d, d);
-    bool in_ring = (cell.inner < 0.0 || squared > cell.inner * cell.inner) && squared < cell.outer * cell.outer;
+    // The map takes pixels nearer than one pixel for that far away.
+    float read_at = max(squared, 1.0);
+    bool in_ring = (cell.inner < 0.0 || read_at > cell.inner * cell.inner) && read_at < cell.outer * cell.outer;
     // The sine of the angle between the two directions, times the distance.
     float across = cell.direction.x * d.y - cell.direction.y * d.x;
     bool in_angle = dot(cell.direction, d) > 0.0 && across * across < squared * cell.sine_squared;
