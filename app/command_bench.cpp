@@ -201,6 +201,13 @@ BenchCommand::BenchCommand(CLI::App& program) {
     command->add_option("--samples", samples_, "Ray-marched scenes: rays for each sample (the paper's: 16)")
         ->capture_default_str()
         ->check(CLI::Range(1, 64));
+    command
+        ->add_option(
+            "--shading", shading_,
+            "How methods that can do both shade their samples: auto (fragments on a software device, "
+            "compute shaders on others), fragments or compute")
+        ->capture_default_str()
+        ->check(CLI::IsMember({"auto", "fragments", "compute"}));
     command->add_flag("--no-needs", no_needs_, "Without the table of what leaving things out saves");
     command->add_option("--out", out_, "Folder for the results")->required();
     command->add_flag("--quiet", quiet_, "No progress");
@@ -225,6 +232,7 @@ void BenchCommand::run() const {
     plan.moving_gaze = moving_gaze_;
     plan.options.keep_geometry = still_;
     plan.options.samples_per_sample = static_cast<std::uint32_t>(samples_);
+    if (shading_ != "auto") plan.options.shade_in_compute = shading_ == "compute";
     make_output_folder(out_);
 
     Gpu gpu;

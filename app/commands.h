@@ -205,6 +205,7 @@ class BenchCommand {
     std::string out_;
     int rounds_ = 5;
     int samples_ = 1;
+    std::string shading_ = "auto";
     bool moving_gaze_ = false;
     bool still_ = false;
     bool no_needs_ = false;

@@ -90,6 +90,7 @@ std::vector<BenchmarkMethod> standard_benchmark_methods() {
            {"mar_start", 0.14},
            {"internal_filter", 0}},
           {{"kernel", "linear_mar"}}}},
+        {"rings", {"rings", {}, {}}},
     };
 }
 

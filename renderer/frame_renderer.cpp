@@ -24,7 +24,10 @@ void add_time(std::vector<PassTimer::Pass>& passes, const PassTimer::Pass& pass)
 }  // namespace
 
 FrameRenderer::FrameRenderer(Gpu& gpu, const Scene& scene, const ScenePassOptions& options)
-    : gpu_(gpu), passes_(gpu, scene, options), timer_(gpu, kMostPasses) {}
+    : gpu_(gpu),
+      passes_(gpu, scene, options),
+      shade_in_compute_(options.shade_in_compute.value_or(!gpu.runs_on_the_cpu())),
+      timer_(gpu, kMostPasses) {}
 
 FrameRenderer::~FrameRenderer() = default;
 
@@ -69,7 +72,8 @@ FoveationMethod& FrameRenderer::method_called(const std::string& name) {
 ShadingSource FrameRenderer::shading_source() const {
     return {.thing = passes_.ray_marched() ? ShadedThing::primitives : ShadedThing::meshes,
             .layout = passes_.shading_set_layout(),
-            .constants = passes_.shading_constants()};
+            .constants = passes_.shading_constants(),
+            .in_compute = shade_in_compute_};
 }
 
 FrameRenderer::Order FrameRenderer::order(SizePx size, const CameraView& view, const RenderMethod& method,

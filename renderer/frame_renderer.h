@@ -77,6 +77,7 @@ class FrameRenderer {
 
     Gpu& gpu_;
     ScenePasses passes_;
+    bool shade_in_compute_;
     PassTimer timer_;
     SizePx size_;
     GpuImage target_;

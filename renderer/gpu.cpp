@@ -256,6 +256,7 @@ void Gpu::create_device(const GpuMaker& maker) {
     features_.fragmentStoresAndAtomics = VK_TRUE;
     features_.independentBlend = VK_TRUE;
     features_.occlusionQueryPrecise = VK_TRUE;
+    features_.shaderStorageImageWriteWithoutFormat = has.features.shaderStorageImageWriteWithoutFormat;
     features_.samplerAnisotropy = has.features.samplerAnisotropy;
     features_.multiDrawIndirect = has.features.multiDrawIndirect;
     features_.drawIndirectFirstInstance = has.features.drawIndirectFirstInstance;

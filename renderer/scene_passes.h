@@ -36,6 +36,9 @@ struct ScenePassOptions {
     // each pixel. When absent: on software devices, which pay for every lookup and have no anisotropic ones
     // to lose.
     std::optional<bool> late_textures;
+    // Methods that can shade their samples in compute shaders, not in fragments. When absent: on all devices
+    // but software ones, which run fragments faster.
+    std::optional<bool> shade_in_compute;
     // While the view stays as it is, geometry is not drawn again.
     bool keep_geometry = true;
     std::uint32_t samples_per_sample = 1;  // ray-marched: rays for each shade_sample()

@@ -15,6 +15,13 @@ std::span<const std::uint32_t> ShadingCode::of(ShadedThing thing) const {
     return {};
 }
 
+bool compute_can_write(const Gpu& gpu, VkFormat format) {
+    VkFormatProperties properties;
+    vkGetPhysicalDeviceFormatProperties(gpu.physical_device(), format, &properties);
+    return gpu.features().shaderStorageImageWriteWithoutFormat &&
+           (properties.optimalTilingFeatures & VK_FORMAT_FEATURE_STORAGE_IMAGE_BIT) != 0;
+}
+
 void push_jitter(VkCommandBuffer commands, VkPipelineLayout layout, const Jitter& jitter) {
     vkCmdPushConstants(commands, layout, kPushConstantStages, 0, sizeof jitter, &jitter);
 }

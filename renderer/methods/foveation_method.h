@@ -38,7 +38,12 @@ struct ShadingSource {
     ShadedThing thing = ShadedThing::meshes;
     VkDescriptorSetLayout layout = VK_NULL_HANDLE;
     std::vector<ShaderConstant> constants;
+    // Reduced buffers are shaded by compute shaders instead of fragments, by methods that can.
+    bool in_compute = false;
 };
+
+// Whether the device's compute shaders can write images of a format.
+bool compute_can_write(const Gpu& gpu, VkFormat format);
 
 struct Jitter {
     float x = 0;

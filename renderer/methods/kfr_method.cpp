@@ -13,6 +13,9 @@
 #include "renderer/methods/native_inset.h"
 #include "shader_code/fullscreen_vert.h"
 #include "shader_code/internal_filter.h"
+#include "shader_code/pass_1_compute_meshes.h"
+#include "shader_code/pass_1_compute_picture.h"
+#include "shader_code/pass_1_compute_primitives.h"
 #include "shader_code/pass_1_meshes.h"
 #include "shader_code/pass_1_picture.h"
 #include "shader_code/pass_1_primitives.h"
@@ -27,6 +30,8 @@ namespace {
 // How many settings may take turns on one screen before buffers are made anew.
 constexpr std::size_t kMostTargets = 8;
 
+const ShadingCode kComputeShading{shader_code::pass_1_compute_meshes, shader_code::pass_1_compute_primitives,
+                                  shader_code::pass_1_compute_picture};
 const ShadingCode kShading{shader_code::pass_1_meshes, shader_code::pass_1_primitives,
                            shader_code::pass_1_picture};
 
@@ -136,7 +141,10 @@ KfrMethod::Pipelines KfrMethod::make_pipelines() const {
         masked_pass(kShading.of(source_.thing), layouts_.shading.get(), formats_.reduced, setting_.culling);
     shading.constants = source_.constants;
     shading.constants.insert(shading.constants.end(), map_constants.begin(), map_constants.end());
-    made.shading = make_graphics_pipeline(gpu_, shading);
+    made.shading = formats_.in_compute
+                       ? make_compute_pipeline(gpu_, kComputeShading.of(source_.thing),
+                                               layouts_.compute_shading.get(), shading.constants)
+                       : make_graphics_pipeline(gpu_, shading);
     if (setting_.internal_filter) {
         made.filter =
             make_graphics_pipeline(gpu_, masked_pass(shader_code::internal_filter, layouts_.filter.get(),
@@ -162,8 +170,11 @@ KfrMethod::Pipelines KfrMethod::make_pipelines() const {
 void KfrMethod::record(const MethodFrame& frame) {
     KfrTargets& t = targets_.front();
     frame.timer->start(frame.commands, "pass_1");
-    if (setting_.culling && (t.mask_stale || t.mask_jitter != frame.jitter)) record_mask(frame);
-    record_shading(frame);
+    if (t.mask && (t.mask_stale || t.mask_jitter != frame.jitter)) record_mask(frame);
+    if (formats_.in_compute)
+        record_compute_shading(frame);
+    else
+        record_shading(frame);
     if (setting_.internal_filter) record_internal_filter(frame.commands);
     frame.timer->stop(frame.commands);
 
@@ -201,12 +212,15 @@ void KfrMethod::record_mask(const MethodFrame& frame) {
     ResourceUse before = kUseDepthTest;
     before.layout = VK_IMAGE_LAYOUT_UNDEFINED;
     image_barrier(commands, t.mask, before, kUseDepthTarget);
-    const DepthTarget depth{.view = t.mask.view(), .clear = true, .clear_depth = 0};
+    const DepthTarget depth{
+        .view = t.mask.view(), .clear = true, .clear_depth = setting_.culling ? 0.0f : 1.0f};
     begin_rendering(commands, t.mask.extent(), {}, &depth);
-    t.counts.begin(commands, 0);
-    push_jitter(commands, layouts_.mask.get(), frame.jitter);
-    draw_fullscreen(commands, now_->mask.get(), layouts_.mask.get(), std::array{t.map_set.get()});
-    t.counts.end(commands, 0);
+    if (setting_.culling) {
+        t.counts.begin(commands, 0);
+        push_jitter(commands, layouts_.mask.get(), frame.jitter);
+        draw_fullscreen(commands, now_->mask.get(), layouts_.mask.get(), std::array{t.map_set.get()});
+        t.counts.end(commands, 0);
+    }
     vkCmdEndRendering(commands);
     image_barrier(commands, t.mask, kUseDepthTarget, kUseDepthTest);
     t.mask_stale = false;
@@ -226,6 +240,29 @@ void KfrMethod::record_shading(const MethodFrame& frame) {
                     std::array{frame.shading_set, t.map_set.get()});
     vkCmdEndRendering(frame.commands);
     image_barrier(frame.commands, t.reduced, kUseColorTarget, kUseSampled);
+}
+
+void KfrMethod::record_compute_shading(const MethodFrame& frame) {
+    constexpr std::uint32_t kGroup = 8;  // see pass_1.comp
+    KfrTargets& t = targets_.front();
+    const VkCommandBuffer commands = frame.commands;
+    if (t.fresh) {
+        image_barrier(commands, t.reduced, kUseNone, kUseTransferTarget);
+        const VkClearColorValue black{};
+        const VkImageSubresourceRange all{VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
+        vkCmdClearColorImage(commands, t.reduced.get(), kUseTransferTarget.layout, &black, 1, &all);
+    }
+    image_barrier(commands, t.reduced, t.fresh ? kUseTransferTarget : kUseSampled, kUseComputeStorage);
+    image_barrier(commands, t.mask, kUseDepthTest, kUseSampled);
+    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, now_->shading.get());
+    push_jitter(commands, layouts_.compute_shading.get(), frame.jitter);
+    const std::array sets{frame.shading_set, t.map_set.get(), t.compute_set.get()};
+    vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, layouts_.compute_shading.get(), 0,
+                            sets.size(), sets.data(), 0, nullptr);
+    vkCmdDispatch(commands, (side(t.buffer.width) + kGroup - 1) / kGroup,
+                  (side(t.buffer.height) + kGroup - 1) / kGroup, 1);
+    image_barrier(commands, t.reduced, kUseComputeStorage, kUseSampled);
+    image_barrier(commands, t.mask, kUseSampled, kUseDepthTest);
 }
 
 void KfrMethod::record_internal_filter(VkCommandBuffer commands) {
@@ -285,6 +322,9 @@ MethodStatistics KfrMethod::statistics() const {
     if (setting_.culling) statistics.shaded_samples = t.counts.count(0);
     if (setting_.inset > 0) statistics.shaded_samples += t.counts.count(1);
     note(setting_.culling, "culling", "only texels that a pixel reads are shaded", "switched off");
+    note(formats_.in_compute, "Pass I in compute shaders", "not a software device, or asked for",
+         "a software device is faster with fragments, or the device's compute shaders cannot write the "
+         "buffer");
     note(setting_.internal_filter, "internal filter", "3x3 Gaussian over the peripheral half",
          "switched off");
     note(setting_.inset > 0, "native inset", "full resolution around the gaze", "not asked for");

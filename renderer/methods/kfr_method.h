@@ -43,6 +43,7 @@ class KfrMethod : public FoveationMethod {
     Pipelines make_pipelines() const;
     void record_mask(const MethodFrame& frame);
     void record_shading(const MethodFrame& frame);
+    void record_compute_shading(const MethodFrame& frame);
     void record_internal_filter(VkCommandBuffer commands);
     void record_resampling(const MethodFrame& frame, const GpuImage& target);
 

@@ -10,6 +10,7 @@ constexpr float kLargestRimPx = 8;
 
 constexpr Binding kMapBinding{0, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER};
 constexpr Binding kFirstImage{0, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER};
+constexpr Binding kWrittenImage{0, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE};
 constexpr Binding kSecondImage{1, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER};
 
 GpuImage image_of(Gpu& gpu, SizePx size, VkFormat format, VkImageUsageFlags usage) {
@@ -32,17 +33,25 @@ KfrTargets::KfrTargets(Gpu& gpu, const KfrFormats& formats, const KfrSetting& wa
                                  .address_u = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
                                  .address_v = VK_SAMPLER_ADDRESS_MODE_REPEAT})),
       map_set(gpu, {kMapBinding}),
+      compute_set(gpu, {kWrittenImage, kSecondImage}),
       reduced_set(gpu, {kFirstImage}),
       resample_set(gpu, {kMapBinding, kSecondImage}),
       post_set(gpu, {kMapBinding, kSecondImage}) {
     const VkImageUsageFlags drawn = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
     reduced = image_of(gpu, buffer, formats.reduced,
-                       drawn | VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT);
+                       drawn | VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT |
+                           (formats.in_compute ? VK_IMAGE_USAGE_STORAGE_BIT : 0));
     if (setting.internal_filter) {
         filtered = image_of(gpu, buffer, formats.reduced, drawn | VK_IMAGE_USAGE_TRANSFER_SRC_BIT);
     }
-    if (setting.culling) {
-        mask = image_of(gpu, buffer, kKfrMaskFormat, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT);
+    if (setting.culling || formats.in_compute) {
+        mask = image_of(gpu, buffer, kKfrMaskFormat,
+                        VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT);
+    }
+    if (formats.in_compute) {
+        compute_set.set_storage_image(0, reduced.view());
+        nearest = make_sampler(gpu, {.filter = VK_FILTER_NEAREST, .mipmap = VK_SAMPLER_MIPMAP_MODE_NEAREST});
+        compute_set.set_sampled_image(1, mask.view(), nearest.get());
     }
     if (setting.post_filter) {
         screen_linear = image_of(gpu, screen, kKfrScreenFormat, drawn | VK_IMAGE_USAGE_SAMPLED_BIT);
@@ -68,10 +77,13 @@ void KfrTargets::set_gaze(PointPx wanted) {
 
 KfrLayouts::KfrLayouts(Gpu& gpu, VkDescriptorSetLayout shading_layout)
     : map_set(gpu, {kMapBinding}),
+      compute_set(gpu, {kWrittenImage, kSecondImage}),
       reduced_set(gpu, {kFirstImage}),
       map_and_image_set(gpu, {kMapBinding, kSecondImage}),
       mask(make_pipeline_layout(gpu, {map_set.layout()}, sizeof(Jitter))),
       shading(make_pipeline_layout(gpu, {shading_layout, map_set.layout()}, sizeof(Jitter))),
+      compute_shading(make_pipeline_layout(gpu, {shading_layout, map_set.layout(), compute_set.layout()},
+                                           sizeof(Jitter))),
       filter(make_pipeline_layout(gpu, {reduced_set.layout()})),
       resample(make_pipeline_layout(gpu, {map_and_image_set.layout()}, sizeof(Jitter))) {}
 

@@ -24,6 +24,7 @@ struct KfrFormats {
     VkFormat target = VK_FORMAT_R8G8B8A8_SRGB;
     VkFormat reduced =
         VK_FORMAT_R16G16B16A16_UNORM;  // display-linear values in [0, 1]; finer than halves near 1
+    bool in_compute = false;           // Pass I runs in compute shaders
     bool exact_bilinear = false;  // Pass II interpolates with full float weights instead of the sampler's
 };
 
@@ -49,13 +50,15 @@ class KfrTargets {
 
     shared::KernelMap block{};  // what `map` holds
     GpuBuffer map;
-    GpuImage mask;           // depth 1 where a texel is needed, else 0; with culling
+    GpuImage mask;           // depth 1 where a texel is needed, else 0; with culling or in compute shaders
     GpuImage reduced;        // what Pass I shades and Pass II reads
     GpuImage filtered;       // the internal filter's result, then copied to `reduced`
     GpuImage screen_linear;  // Pass II's result for the post filter
     SampleCounter counts;    // 0: texels needed, 1: pixels of the inset
     OwnedSampler sampler;
+    OwnedSampler nearest;        // for the mask; in compute shaders
     DescriptorSet map_set;       // 0: map
+    DescriptorSet compute_set;   // 0: reduced, 1: mask; in compute shaders
     DescriptorSet reduced_set;   // 0: reduced
     DescriptorSet resample_set;  // 0: map, 1: reduced
     DescriptorSet post_set;      // 0: map, 1: screen_linear
@@ -69,10 +72,12 @@ struct KfrLayouts {
     KfrLayouts(Gpu& gpu, VkDescriptorSetLayout shading);
 
     DescriptorSet map_set;
+    DescriptorSet compute_set;
     DescriptorSet reduced_set;
     DescriptorSet map_and_image_set;
     OwnedPipelineLayout mask;
     OwnedPipelineLayout shading;
+    OwnedPipelineLayout compute_shading;
     OwnedPipelineLayout filter;
     OwnedPipelineLayout resample;  // and post
 };

@@ -89,7 +89,10 @@ const std::vector<MethodName>& method_names() {
 }
 
 std::unique_ptr<FoveationMethod> make_method(Gpu& gpu, const std::string& name, const ShadingSource& source) {
-    const KfrFormats formats{.target = kTargetFormat, .reduced = reduced_format(gpu)};
+    const VkFormat reduced = reduced_format(gpu);
+    const KfrFormats formats{.target = kTargetFormat,
+                             .reduced = reduced,
+                             .in_compute = source.in_compute && compute_can_write(gpu, reduced)};
     if (name == "full") return std::make_unique<FullMethod>(gpu, source, kTargetFormat);
     if (name == "kfr") return std::make_unique<KfrMethod>(gpu, source, formats);
     if (name == "log_polar") return std::make_unique<LogPolarMethod>(gpu, source, formats);
@@ -97,8 +100,7 @@ std::unique_ptr<FoveationMethod> make_method(Gpu& gpu, const std::string& name, 
         return std::make_unique<EffortMethod>(gpu, source, kTargetFormat, *saved);
     if (const GridMethodName* method = grid_method_called(name)) {
         return std::make_unique<GridMethod>(
-            gpu, source, GridFormats{.target = kTargetFormat, .samples = reduced_format(gpu)},
-            method->planner);
+            gpu, source, GridFormats{.target = kTargetFormat, .samples = reduced}, method->planner);
     }
     refuse(name);
 }

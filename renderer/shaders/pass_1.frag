@@ -1,15 +1,7 @@
-// Pass I: light only the samples of the reduced buffer (Meng et al. 2018, Algorithm 1 turned round: each texel asks
-// where on the screen it lies). A texel off the screen takes the nearest edge.
+// Pass I in fragments.
 #version 460
-#define METHOD_SET 1
-#include "jitter.glsl"
-#include "shade.glsl"
-#include "map_block.glsl"
+#include "pass_1.glsl"
 
 layout(location = 0) out vec4 color;
 
-void main() {
-    vec2 texel = gl_FragCoord.xy + jitter;
-    vec2 position = clamp(screen_from_buffer(map, texel), vec2(0.5), map.screen_size - 0.5);
-    color = vec4(shade_sample(position, sample_spacing(map, texel)), 1.0);
-}
+void main() { color = pass_1(gl_FragCoord.xy); }

@@ -10,6 +10,8 @@ layout(constant_id = 2) const uint kInternalFilter = 0u;
 
 // Rounding may differ between this shader and the one that reads: a footprint counts as a little larger.
 const float kSlack = 1.0 / 128.0;
+// Where a kernel is level, many columns have radii that differ by less than a float tells.
+const float kRounding = 1.0 - 1e-6;
 // A texel with more pixels to look at than this is taken as needed.
 const int kMostPixels = 1024;
 
@@ -25,8 +27,8 @@ struct Cell {
 Cell cell_of(vec2 texel, float reach) {
     Cell cell;
     // The first column holds everything nearer to the gaze, the last everything farther.
-    cell.inner = texel.x - reach <= 0.0 ? -1.0 : radius_of_column(map, texel.x - reach);
-    cell.outer = texel.x + reach >= map.buffer_size.x ? 1e9 : radius_of_column(map, texel.x + reach);
+    cell.inner = texel.x - reach <= 0.0 ? -1.0 : kRounding * radius_of_column(map, texel.x - reach);
+    cell.outer = texel.x + reach >= map.buffer_size.x ? 1e9 : radius_of_column(map, texel.x + reach) / kRounding;
     // Under the opaque part of the inset nothing is seen.
     if (map.inset_px > 0.0) cell.inner = max(cell.inner, map.inset_px - map.inset_rim_px - 0.01);
     cell.direction = unit_vector(texel.y / map.buffer_size.y);

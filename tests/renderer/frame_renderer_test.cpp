@@ -98,6 +98,22 @@ TEST_P(FrameRendererScenes, TellWhatAFrameCost) {
 INSTANTIATE_TEST_SUITE_P(BuiltIn, FrameRendererScenes, testing::Values("primitives", "atrium"),
                          [](const auto& scene) { return std::string(scene.param); });
 
+TEST(FrameRenderer, ComputeShadersLightScenesAsFragmentsDo) {
+    Gpu gpu({.validation = true});
+    for (const char* name : {"primitives", "atrium"}) {
+        const Scene scene = load_scene(name);
+        const SizePx size{160, 120};
+        const CameraView view = view_through(scene.cameras.front(), size);
+        FrameRenderer fragments(gpu, scene, {.shade_in_compute = false});
+        FrameRenderer compute(gpu, scene, {.shade_in_compute = true});
+        const RenderMethod method{"kfr", {{"sigma", 1.8}, {"alpha", 4}}, {}};
+        EXPECT_TRUE(fragments.render(size, view, method, {70, 50}).image ==
+                    compute.render(size, view, method, {70, 50}).image)
+            << name;
+    }
+    EXPECT_TRUE(gpu.validation_messages().empty()) << gpu.validation_messages().front();
+}
+
 TEST(FrameRenderer, RefusesSizesAndMethodsInOneLine) {
     Gpu gpu({.validation = true});
     const Scene scene = load_scene("primitives");

@@ -76,18 +76,41 @@ TEST(KfrMethod, PictureIsBitByBitTheSameWithAndWithoutCulling) {
             // Drawn in turn, so that what is not shaded holds the remains of other gazes.
             PictureMethod culled(gpu, noise_picture(size), "kfr");
             PictureMethod whole(gpu, noise_picture(size), "kfr");
-            for (Case c : culling_cases(size)) {
+            std::vector<Case> cases = culling_cases(size);
+            for (Case& c : cases) {
                 c.numbers["internal_filter"] = filter;
                 c.numbers["culling"] = 1;
                 const Image with = culled.draw(kfr(c.numbers, c.words), c.gaze, c.jitter);
                 c.numbers["culling"] = 0;
                 const Image without = whole.draw(kfr(c.numbers, c.words), c.gaze, c.jitter);
                 EXPECT_TRUE(with == without) << size.width << "x" << size.height << " gaze " << c.gaze.x
-                                             << ", " << c.gaze.y << " filter " << filter;
+                                             << ", " << c.gaze.y << " filter " << filter << " case " << &c - &cases.front();
                 EXPECT_LE(culled.statistics().shaded_samples, whole.statistics().shaded_samples);
             }
         }
     }
+    EXPECT_TRUE(gpu.validation_messages().empty()) << gpu.validation_messages().front();
+}
+
+TEST(KfrMethod, ComputeShadersDrawBitByBitWhatFragmentsDraw) {
+    Gpu gpu({.validation = true});
+    const SizePx size{320, 180};
+    PictureMethod fragments(gpu, noise_picture(size), "kfr");
+    PictureMethod compute(gpu, noise_picture(size), [&](ShadingSource source) {
+        source.in_compute = true;
+        return make_method(gpu, "kfr", source);
+    });
+    for (Case c : culling_cases(size)) {
+        for (const double culling : {0.0, 1.0}) {
+            c.numbers["culling"] = culling;
+            const RenderMethod setting = kfr(c.numbers, c.words);
+            EXPECT_TRUE(compute.draw(setting, c.gaze, c.jitter) == fragments.draw(setting, c.gaze, c.jitter))
+                << "gaze " << c.gaze.x << ", " << c.gaze.y << " culling " << culling;
+            EXPECT_EQ(compute.statistics().shaded_samples, fragments.statistics().shaded_samples);
+        }
+    }
+    const std::vector<FeatureNote> built = compute.statistics().built;
+    EXPECT_TRUE(std::ranges::find(built, "Pass I in compute shaders", &FeatureNote::name) != built.end());
     EXPECT_TRUE(gpu.validation_messages().empty()) << gpu.validation_messages().front();
 }
 
