@@ -5,6 +5,7 @@ packages=(
     g++ cmake ninja-build ccache
     libvulkan-dev mesa-vulkan-drivers vulkan-validationlayers glslc
     libsqlite3-dev libcli11-dev libtomlplusplus-dev nlohmann-json3-dev libtinygltf-dev libstb-dev libglm-dev
+    libmeshoptimizer-dev
     libpng-dev zlib1g-dev libboost-dev gnuplot-nox fonts-dejavu-core
     libopenxr-dev libopenxr-loader1 openxr-layer-corevalidation
     libglfw3-dev libimgui-dev xvfb xauth

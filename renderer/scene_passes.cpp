@@ -8,6 +8,7 @@
 #include <glm/gtc/packing.hpp>
 #include <numbers>
 #include <optional>
+#include <tuple>
 
 #include "renderer/scene_irradiance.h"
 #include "renderer/scene_lighting.h"
@@ -22,6 +23,7 @@ const ResourceUse kUseUniform{VK_PIPELINE_STAGE_2_ALL_GRAPHICS_BIT | VK_PIPELINE
                               VK_ACCESS_2_UNIFORM_READ_BIT, VK_IMAGE_LAYOUT_UNDEFINED};
 
 constexpr const char* kKept = "drawing geometry again";
+constexpr const char* kLevels = "levels of detail";
 
 // The exposure that shows a grey surface near the eye as grey, as a camera left to itself would choose.
 float exposure_at(const IrradianceVolume& volume, glm::vec3 eye, const std::vector<PunctualLight>& lamps) {
@@ -50,6 +52,38 @@ float exposure_at(const IrradianceVolume& volume, glm::vec3 eye, const std::vect
         }
     }
     return std::clamp(kKey / std::exp(sum / weights), 0.05f, 60.0f);
+}
+
+// A piece of an instance, in the level of detail in which it is drawn.
+struct VisiblePiece {
+    float distance_m = 0;
+    std::size_t instance = 0;
+    std::uint32_t first_index = 0;
+    std::uint32_t index_count = 0;
+};
+
+// How many pixels at most a metre covers, anywhere in a box. A flat picture stretches what lies off its axis.
+float px_per_m(const Bounds& box, const CameraView& view, SizePx size) {
+    const glm::mat4 eye_from_world = glm::inverse(view.world_from_eye);
+    const float widest = std::max(view.tan_left, view.tan_right),
+                highest = std::max(view.tan_up, view.tan_down);
+    float most_x = 0, most_y = 0;
+    for (int corner = 0; corner < 8; ++corner) {
+        const glm::vec3 p{eye_from_world * glm::vec4(corner & 1 ? box.high.x : box.low.x,
+                                                     corner & 2 ? box.high.y : box.low.y,
+                                                     corner & 4 ? box.high.z : box.low.z, 1)};
+        const bool ahead = p.z < -view.near_m;
+        most_x = std::max(most_x, ahead ? std::abs(p.x / p.z) : widest);
+        most_y = std::max(most_y, ahead ? std::abs(p.y / p.z) : highest);
+    }
+    // Only what lies in the frustum is seen.
+    most_x = std::min(most_x, widest);
+    most_y = std::min(most_y, highest);
+    const float px_per_tan = std::max(static_cast<float>(size.width) / (view.tan_left + view.tan_right),
+                                      static_cast<float>(size.height) / (view.tan_up + view.tan_down));
+    const glm::vec3 eye{view.world_from_eye[3]};
+    const float distance = std::max(glm::distance(eye, glm::clamp(eye, box.low, box.high)), view.near_m);
+    return px_per_tan * (1 + most_x * most_x + most_y * most_y) / distance;
 }
 
 }  // namespace
@@ -82,10 +116,11 @@ struct ScenePasses::Parts {
     GpuImage irradiance, light_grid;
     OwnedSampler nearest, shadow_sampler, linear, trilinear;
     DescriptorSet set;
-    std::vector<std::size_t> in_view;
+    std::vector<VisiblePiece> in_view;
     std::vector<FeatureNote> built;
     std::vector<FeatureNote> left_out;
     std::uint64_t triangles_in_view = 0;
+    std::uint64_t full_triangles_in_view = 0;
 
     void note(bool is_built, const char* name, const std::string& why_built, const std::string& why_not) {
         if (is_built)
@@ -99,7 +134,10 @@ struct ScenePasses::Parts {
     void build_surface_textures(const Scene& scene);
     void describe(const Scene& scene);
     void make_targets();
-    void find_visible(glm::vec3 eye);
+    double most_detail_error_px() const {
+        return options.force_everything ? 0 : options.most_detail_error_px;
+    }
+    void find_visible(const CameraView& view);
     void record_layer(VkCommandBuffer commands, bool blended_layer);
 };
 
@@ -110,7 +148,7 @@ void ScenePasses::Parts::build_meshes(const Scene& scene) {
     build_emission = features.emission || features.occlusion_maps || all;
     light_count = all ? shared::kMaxLights : static_cast<std::uint32_t>(scene.lights.size());
     build_late = options.late_textures.value_or(gpu.runs_on_the_cpu()) && can_read_textures_late(scene);
-    resources.emplace(gpu, scene, !build_emission, build_late);
+    resources.emplace(gpu, scene, !build_emission, build_late, most_detail_error_px() > 0);
     if (build_shadow) {
         shadow.emplace(gpu, *resources, glm::normalize(scene.sun->direction));
         std::memcpy(lighting.shadow_from_world.columns, &shadow->map_from_world(), sizeof(glm::mat4));
@@ -310,20 +348,41 @@ void ScenePasses::Parts::make_targets() {
                           build_blended ? blended_depth.view() : unused_depth.view(), nearest.get());
 }
 
-// Lists the instances in the view, the nearest first.
-void ScenePasses::Parts::find_visible(glm::vec3 eye) {
-    std::vector<std::pair<float, std::size_t>> seen;
-    triangles_in_view = 0;
+// Lists the pieces in the view, the nearest first, and chooses their levels of detail.
+void ScenePasses::Parts::find_visible(const CameraView& view) {
+    const glm::vec3 eye{view.world_from_eye[3]};
+    in_view.clear();
+    triangles_in_view = full_triangles_in_view = 0;
     for (std::size_t i = 0; i < resources->instances().size(); ++i) {
         const DrawInstance& instance = resources->instances()[i];
         if (instance.bounds.empty() || !may_be_seen(instance.bounds, clip_from_world)) continue;
-        const glm::vec3 nearest_point = glm::clamp(eye, instance.bounds.low, instance.bounds.high);
-        seen.emplace_back(glm::distance(eye, nearest_point) + 0.1f * instance.bounds.radius(), i);
-        triangles_in_view += resources->meshes()[instance.mesh].index_count / 3;
+        const std::vector<MeshPiece>& pieces = resources->meshes()[instance.mesh].pieces;
+        for (std::size_t k = 0; k < pieces.size(); ++k) {
+            const Bounds& bounds = instance.piece_bounds[k];
+            if (pieces.size() > 1 && !may_be_seen(bounds, clip_from_world)) continue;
+            DetailLevel level = pieces[k].levels.front();
+            full_triangles_in_view += level.index_count / 3;
+            if (pieces[k].levels.size() > 1) {
+                const float px_per_error = px_per_m(bounds, view, size) * instance.stretch;
+                level = level_for(pieces[k], static_cast<float>(most_detail_error_px()) / px_per_error);
+            }
+            triangles_in_view += level.index_count / 3;
+            const glm::vec3 nearest_point = glm::clamp(eye, bounds.low, bounds.high);
+            in_view.push_back({glm::distance(eye, nearest_point) + 0.1f * bounds.radius(), i,
+                               level.first_index, level.index_count});
+        }
     }
-    std::sort(seen.begin(), seen.end());
-    in_view.clear();
-    for (const auto& [distance, index] : seen) in_view.push_back(index);
+    std::sort(in_view.begin(), in_view.end(), [](const VisiblePiece& a, const VisiblePiece& b) {
+        return std::tuple(a.distance_m, a.instance, a.first_index) <
+               std::tuple(b.distance_m, b.instance, b.first_index);
+    });
+    std::erase_if(built, [](const FeatureNote& n) { return n.name == kLevels; });
+    std::erase_if(left_out, [](const FeatureNote& n) { return n.name == kLevels; });
+    note(most_detail_error_px() > 0, kLevels,
+         std::to_string(triangles_in_view) + " of " + std::to_string(full_triangles_in_view) +
+             " triangles are drawn; no vertex appears farther than " +
+             std::to_string(most_detail_error_px()).substr(0, 4) + " pixels from its place",
+         "full detail was asked for");
 }
 
 void ScenePasses::Parts::record_layer(VkCommandBuffer commands, bool blended_layer) {
@@ -337,8 +396,9 @@ void ScenePasses::Parts::record_layer(VkCommandBuffer commands, bool blended_lay
     resources->bind_geometry(commands);
     VkPipeline bound_pipeline = VK_NULL_HANDLE;
     int bound_material = -1;
-    for (std::size_t index : in_view) {
-        const DrawInstance& instance = resources->instances()[index];
+    std::size_t pushed_instance = resources->instances().size();
+    for (const VisiblePiece& piece : in_view) {
+        const DrawInstance& instance = resources->instances()[piece.instance];
         const DrawMesh& mesh = resources->meshes()[instance.mesh];
         const DrawMaterial& material = resources->material_of(instance);
         if (material.blend != blended_layer) continue;
@@ -353,8 +413,9 @@ void ScenePasses::Parts::record_layer(VkCommandBuffer commands, bool blended_lay
                                     &material_set, 0, nullptr);
             bound_material = mesh.material;
         }
-        push_instance(commands, *resources, instance, clip_from_world);
-        vkCmdDrawIndexed(commands, mesh.index_count, 1, mesh.first_index, mesh.first_vertex, 0);
+        if (piece.instance != pushed_instance) push_instance(commands, *resources, instance, clip_from_world);
+        pushed_instance = piece.instance;
+        vkCmdDrawIndexed(commands, piece.index_count, 1, piece.first_index, mesh.first_vertex, 0);
     }
     vkCmdEndRendering(commands);
     image_barrier(commands, words, kUseColorTarget, kUseSampled);
@@ -397,7 +458,7 @@ void ScenePasses::set_view(SizePx size, const CameraView& view) {
     p.size = size;
     if (p.ray_marched) return;
     if (resized) p.make_targets();
-    p.find_visible(glm::vec3(view.world_from_eye[3]));
+    p.find_visible(view);
 }
 
 void ScenePasses::record(VkCommandBuffer commands, PassTimer* timer) {
@@ -468,6 +529,9 @@ const std::vector<FeatureNote>& ScenePasses::left_out() const {
 }
 std::uint64_t ScenePasses::triangles_in_view() const {
     return parts_->triangles_in_view;
+}
+std::uint64_t ScenePasses::full_triangles_in_view() const {
+    return parts_->full_triangles_in_view;
 }
 
 }  // namespace parafovea

@@ -41,6 +41,9 @@ struct ScenePassOptions {
     std::optional<bool> shade_in_compute;
     // While the view stays as it is, geometry is not drawn again.
     bool keep_geometry = true;
+    // Each piece of a mesh is drawn in the coarsest level of detail no vertex of which appears farther than
+    // this from where full detail shows it. 0, or force_everything: full detail.
+    double most_detail_error_px = 0.5;
     std::uint32_t samples_per_sample = 1;  // ray-marched: rays for each shade_sample()
 };
 
@@ -76,7 +79,10 @@ class ScenePasses {
 
     const std::vector<FeatureNote>& built() const;
     const std::vector<FeatureNote>& left_out() const;  // the last record()'s, too
-    std::uint64_t triangles_in_view() const;           // of the last record()
+
+    // Of the last set_view(): triangles that are drawn, and as many as there would be in full detail.
+    std::uint64_t triangles_in_view() const;
+    std::uint64_t full_triangles_in_view() const;
 
   private:
     struct Parts;

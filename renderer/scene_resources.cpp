@@ -4,62 +4,47 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <numbers>
+#include <span>
 #include <tuple>
 
 #include "shader_code/depth_masked_frag.h"
 #include "shader_code/depth_masked_vert.h"
 #include "shader_code/depth_vert.h"
 #include "shader_code/gbuffer_frag.h"
+#include "shader_code/gbuffer_frag_colors.h"
+#include "shader_code/gbuffer_frag_tangents.h"
+#include "shader_code/gbuffer_frag_tangents_colors.h"
 #include "shader_code/gbuffer_late_frag.h"
+#include "shader_code/gbuffer_late_frag_tangents.h"
 #include "shader_code/gbuffer_vert.h"
+#include "shader_code/gbuffer_vert_colors.h"
+#include "shader_code/gbuffer_vert_tangents.h"
+#include "shader_code/gbuffer_vert_tangents_colors.h"
 
 namespace parafovea {
 namespace {
 
-// What the G-buffer's vertex shader reads beside the position.
+// What the G-buffer's vertex shader reads beside the position. Nothing that it would have to decode.
 struct PackedAttributes {
-    std::int16_t frame[4];
+    std::int16_t normal[4];
+    std::int16_t tangent[4];  // the last: handedness
     float uv[2];
-    std::uint8_t color[4];
 };
-static_assert(sizeof(PackedAttributes) == 20);
+static_assert(sizeof(PackedAttributes) == 24);
 
 std::int16_t snorm16(float x) {
     return static_cast<std::int16_t>(std::lround(std::clamp(x, -1.0f, 1.0f) * 32767));
 }
 
-glm::vec2 octahedral(glm::vec3 n) {
-    const glm::vec2 p = glm::vec2(n) / (std::abs(n.x) + std::abs(n.y) + std::abs(n.z));
-    if (n.z >= 0) return p;
-    return {(1 - std::abs(p.y)) * (p.x >= 0 ? 1.0f : -1.0f), (1 - std::abs(p.x)) * (p.y >= 0 ? 1.0f : -1.0f)};
-}
-
-glm::vec3 from_octahedral(glm::vec2 p) {
-    glm::vec3 n{p, 1 - std::abs(p.x) - std::abs(p.y)};
-    const float under = std::max(-n.z, 0.0f);
-    n.x += n.x >= 0 ? -under : under;
-    n.y += n.y >= 0 ? -under : under;
-    return glm::normalize(n);
-}
-
 PackedAttributes packed(const SceneVertex& v) {
-    const glm::vec2 p = octahedral(v.normal);
     PackedAttributes a{};
-    a.frame[0] = snorm16(p.x);
-    a.frame[1] = snorm16(p.y);
-    // The tangent as an angle around the stored normal, from axes that the shader finds again.
-    const glm::vec3 n =
-        from_octahedral({static_cast<float>(a.frame[0]) / 32767, static_cast<float>(a.frame[1]) / 32767});
-    const glm::vec3 axis = std::abs(n.x) < 0.9f ? glm::vec3(1, 0, 0) : glm::vec3(0, 1, 0);
-    const glm::vec3 across = glm::normalize(glm::cross(n, axis));
-    const glm::vec3 t{v.tangent};
-    const float angle = std::atan2(glm::dot(t, glm::cross(n, across)), glm::dot(t, across));
-    a.frame[2] = snorm16(angle / std::numbers::pi_v<float>);
-    a.frame[3] = v.tangent.w < 0 ? -32767 : 32767;
+    for (int i = 0; i < 3; ++i) {
+        a.normal[i] = snorm16(v.normal[i]);
+        a.tangent[i] = snorm16(v.tangent[i]);
+    }
+    a.tangent[3] = v.tangent.w < 0 ? -32767 : 32767;
     a.uv[0] = v.uv.x;
     a.uv[1] = v.uv.y;
-    for (int i = 0; i < 4; ++i) a.color[i] = v.color[i];
     return a;
 }
 
@@ -88,22 +73,32 @@ void set_transform(shared::MaterialBlock& block, int index, const TextureSlot& s
     block.transforms[2 * index + 1] = {-s * slot.scale.x, c * slot.scale.y, slot.offset.y, 0};
 }
 
+// At least the largest singular value: the root of the largest row sum of the matrix's square.
+float most_stretch(const glm::mat3& m) {
+    const glm::mat3 square = glm::transpose(m) * m;
+    float most = 0;
+    for (int i = 0; i < 3; ++i)
+        most = std::max(most, std::abs(square[i].x) + std::abs(square[i].y) + std::abs(square[i].z));
+    return std::sqrt(most);
+}
+
 bool is_moved(const TextureSlot& slot) {
     return slot && (slot.offset != glm::vec2(0) || slot.scale != glm::vec2(1) || slot.rotation_rad != 0);
 }
 
 }  // namespace
 
-SceneResources::SceneResources(Gpu& gpu, const Scene& scene, bool lean_gbuffer, bool late_textures)
+SceneResources::SceneResources(Gpu& gpu, const Scene& scene, bool lean_gbuffer, bool late_textures,
+                               bool simplified)
     : gbuffer_format_(lean_gbuffer && !late_textures ? VK_FORMAT_R32G32_UINT : VK_FORMAT_R32G32B32A32_UINT),
       vertex_colors_(features_of(scene).vertex_colors),
       late_textures_(late_textures) {
-    upload_geometry(gpu, scene);
+    upload_geometry(gpu, scene, simplified);
     upload_textures(gpu, scene);
     make_materials(gpu, scene);
 }
 
-void SceneResources::upload_geometry(Gpu& gpu, const Scene& scene) {
+void SceneResources::upload_geometry(Gpu& gpu, const Scene& scene, bool simplified) {
     std::vector<glm::vec3> positions;
     std::vector<PackedAttributes> attributes;
     positions.reserve(scene.vertices.size());
@@ -120,10 +115,19 @@ void SceneResources::upload_geometry(Gpu& gpu, const Scene& scene) {
     };
     positions_ = make(std::span<const glm::vec3>(positions), VK_BUFFER_USAGE_VERTEX_BUFFER_BIT);
     attributes_ = make(std::span<const PackedAttributes>(attributes), VK_BUFFER_USAGE_VERTEX_BUFFER_BIT);
-    indices_ = make(std::span<const std::uint32_t>(scene.indices), VK_BUFFER_USAGE_INDEX_BUFFER_BIT);
-    for (const SceneMesh& mesh : scene.meshes)
-        meshes_.push_back({mesh.first_index, mesh.index_count, static_cast<std::int32_t>(mesh.first_vertex),
-                           mesh.material, mesh.bounds});
+    if (vertex_colors_) {
+        std::vector<glm::u8vec4> colors;
+        for (const SceneVertex& v : scene.vertices) colors.push_back(v.color);
+        colors_ = make(std::span<const glm::u8vec4>(colors), VK_BUFFER_USAGE_VERTEX_BUFFER_BIT);
+    }
+    SceneDetail detail = make_detail(scene, simplified);
+    indices_ = make(std::span<const std::uint32_t>(detail.indices), VK_BUFFER_USAGE_INDEX_BUFFER_BIT);
+    for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
+        const SceneMesh& mesh = scene.meshes[i];
+        meshes_.push_back({detail.first_index[i], mesh.index_count / 3 * 3,
+                           static_cast<std::int32_t>(mesh.first_vertex), mesh.material, mesh.bounds,
+                           std::move(detail.pieces[i])});
+    }
     for (const SceneInstance& instance : scene.instances) {
         DrawInstance draw;
         draw.mesh = instance.mesh;
@@ -133,7 +137,10 @@ void SceneResources::upload_geometry(Gpu& gpu, const Scene& scene) {
         draw.mirrored = determinant < 0;
         draw.world_from_normal =
             std::abs(determinant) > 1e-30f ? glm::transpose(glm::inverse(linear)) : glm::mat3(1);
+        draw.stretch = most_stretch(linear);
         draw.bounds = transformed(scene.meshes[instance.mesh].bounds, instance.world_from_mesh);
+        for (const MeshPiece& piece : meshes_[instance.mesh].pieces)
+            draw.piece_bounds.push_back(transformed(piece.bounds, instance.world_from_mesh));
         instances_.push_back(draw);
     }
 }
@@ -224,16 +231,35 @@ VkPipeline SceneResources::gbuffer_pipeline(Gpu& gpu, PipelineKey key) {
     if (pipeline) return pipeline.get();
     GraphicsPipelineDescription d;
     const bool blended = key & (1u << shared::kConstBlendedLayer);
-    d.vertex = shader_code::gbuffer_vert;
-    d.fragment = shader_code::gbuffer_frag;
-    if (late_textures_ && !blended) d.fragment = shader_code::gbuffer_late_frag;
+    const bool tangents = key & (1u << shared::kConstNormalTexture);
+    const bool colors = key & (1u << shared::kConstVertexColors);
+    const bool late = late_textures_ && !blended;
+    assert(!(late && colors));
+    // Only what the material needs is fetched and handed on.
+    d.vertex = tangents ? std::span<const std::uint32_t>(shader_code::gbuffer_vert_tangents)
+                        : std::span<const std::uint32_t>(shader_code::gbuffer_vert);
+    d.fragment = tangents ? std::span<const std::uint32_t>(shader_code::gbuffer_frag_tangents)
+                          : std::span<const std::uint32_t>(shader_code::gbuffer_frag);
+    if (colors && tangents) d.vertex = shader_code::gbuffer_vert_tangents_colors;
+    if (colors && tangents) d.fragment = shader_code::gbuffer_frag_tangents_colors;
+    if (colors && !tangents) d.vertex = shader_code::gbuffer_vert_colors;
+    if (colors && !tangents) d.fragment = shader_code::gbuffer_frag_colors;
+    if (late && tangents) d.fragment = shader_code::gbuffer_late_frag_tangents;
+    if (late && !tangents) d.fragment = shader_code::gbuffer_late_frag;
     d.layout = layout_.get();
     d.vertex_bindings = {{0, sizeof(glm::vec3), VK_VERTEX_INPUT_RATE_VERTEX},
                          {1, sizeof(PackedAttributes), VK_VERTEX_INPUT_RATE_VERTEX}};
     d.vertex_attributes = {{0, 0, VK_FORMAT_R32G32B32_SFLOAT, 0},
-                           {1, 1, VK_FORMAT_R16G16B16A16_SNORM, offsetof(PackedAttributes, frame)},
-                           {2, 1, VK_FORMAT_R32G32_SFLOAT, offsetof(PackedAttributes, uv)},
-                           {3, 1, VK_FORMAT_R8G8B8A8_UNORM, offsetof(PackedAttributes, color)}};
+                           {1, 1, VK_FORMAT_R16G16B16A16_SNORM, offsetof(PackedAttributes, normal)},
+                           {2, 1, VK_FORMAT_R32G32_SFLOAT, offsetof(PackedAttributes, uv)}};
+    if (tangents) {
+        d.vertex_attributes.push_back(
+            {3, 1, VK_FORMAT_R16G16B16A16_SNORM, offsetof(PackedAttributes, tangent)});
+    }
+    if (colors) {
+        d.vertex_bindings.push_back({2, sizeof(glm::u8vec4), VK_VERTEX_INPUT_RATE_VERTEX});
+        d.vertex_attributes.push_back({4, 2, VK_FORMAT_R8G8B8A8_UNORM, 0});
+    }
     d.color_formats = {blended ? kBlendedFormat : gbuffer_format_};
     d.depth_format = kDepthFormat;
     d.cull = key & kKeyCullBack ? VK_CULL_MODE_BACK_BIT : VK_CULL_MODE_NONE;
@@ -274,9 +300,9 @@ VkPipeline SceneResources::depth_pipeline(Gpu& gpu, bool masked, VkFormat format
 }
 
 void SceneResources::bind_geometry(VkCommandBuffer commands) const {
-    const VkBuffer buffers[] = {positions_.get(), attributes_.get()};
-    const VkDeviceSize offsets[] = {0, 0};
-    vkCmdBindVertexBuffers(commands, 0, 2, buffers, offsets);
+    const VkBuffer buffers[] = {positions_.get(), attributes_.get(), colors_.get()};
+    const VkDeviceSize offsets[] = {0, 0, 0};
+    vkCmdBindVertexBuffers(commands, 0, vertex_colors_ ? 3 : 2, buffers, offsets);
     vkCmdBindIndexBuffer(commands, indices_.get(), 0, VK_INDEX_TYPE_UINT32);
 }
 

@@ -7,6 +7,7 @@
 
 #include "renderer/gpu_pipeline.h"
 #include "renderer/scene.h"
+#include "renderer/scene_detail.h"
 #include "renderer/shared/scene_layout.h"
 
 namespace parafovea {
@@ -22,11 +23,12 @@ inline constexpr VkFormat kShadowFormat = VK_FORMAT_D16_UNORM;
 inline constexpr VkFormat kBlendedFormat = VK_FORMAT_R32G32B32A32_UINT;
 
 struct DrawMesh {
-    std::uint32_t first_index = 0;
+    std::uint32_t first_index = 0;  // of the whole mesh in full detail
     std::uint32_t index_count = 0;
     std::int32_t first_vertex = 0;
     int material = 0;
     Bounds bounds;  // of the mesh, in its own space
+    std::vector<MeshPiece> pieces;
 };
 
 struct DrawInstance {
@@ -34,7 +36,9 @@ struct DrawInstance {
     glm::mat4 world_from_mesh{1};
     glm::mat3 world_from_normal{1};
     bool mirrored = false;
-    Bounds bounds;  // in the world
+    float stretch = 1;  // the most that the transform stretches a length
+    Bounds bounds;      // in the world
+    std::vector<Bounds> piece_bounds;
 };
 
 struct DrawMaterial {
@@ -48,8 +52,9 @@ struct DrawMaterial {
 class SceneResources {
   public:
     // `lean_gbuffer`: two words for each pixel instead of four. `late_textures`: the G-buffer says where
-    // shading is to read them (see scene_surface_textures.h); it then has four words.
-    SceneResources(Gpu& gpu, const Scene& scene, bool lean_gbuffer, bool late_textures = false);
+    // shading is to read them (see scene_surface_textures.h); it then has four words. `simplified`: meshes
+    // have levels of detail.
+    SceneResources(Gpu& gpu, const Scene& scene, bool lean_gbuffer, bool late_textures, bool simplified);
 
     const std::vector<DrawMesh>& meshes() const { return meshes_; }
     const std::vector<DrawInstance>& instances() const { return instances_; }
@@ -64,10 +69,9 @@ class SceneResources {
     VkPipelineLayout layout() const { return layout_.get(); }
 
     void bind_geometry(VkCommandBuffer commands) const;
-    static std::uint64_t triangles_of(const DrawMesh& mesh) { return mesh.index_count / 3; }
 
   private:
-    void upload_geometry(Gpu& gpu, const Scene& scene);
+    void upload_geometry(Gpu& gpu, const Scene& scene, bool simplified);
     void upload_textures(Gpu& gpu, const Scene& scene);
     void make_materials(Gpu& gpu, const Scene& scene);
 
@@ -82,6 +86,7 @@ class SceneResources {
     OwnedSampler plain_sampler_;
     GpuBuffer positions_;
     GpuBuffer attributes_;
+    GpuBuffer colors_;
     GpuBuffer indices_;
     VkFormat gbuffer_format_ = VK_FORMAT_UNDEFINED;
     bool vertex_colors_ = false;

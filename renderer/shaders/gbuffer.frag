@@ -1,4 +1,4 @@
-// Writes what a surface is made of into the G-buffer.
+// Writes what a surface is made of into the G-buffer. TANGENTS: for a normal map; COLORS: with vertex colours.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "../shared/scene_layout.h"
@@ -13,18 +13,20 @@ layout(set = 0, binding = kBindEmissive) uniform sampler2D emissive_map;
 
 layout(constant_id = kConstBaseColorTexture) const uint kBaseColorTexture = 0u;
 layout(constant_id = kConstMetallicRoughnessTexture) const uint kMetallicRoughnessTexture = 0u;
-layout(constant_id = kConstNormalTexture) const uint kNormalTexture = 0u;
 layout(constant_id = kConstOcclusionTexture) const uint kOcclusionTexture = 0u;
 layout(constant_id = kConstEmissiveTexture) const uint kEmissiveTexture = 0u;
 layout(constant_id = kConstMask) const uint kMask = 0u;
 layout(constant_id = kConstTextureTransforms) const uint kTextureTransforms = 0u;
-layout(constant_id = kConstVertexColors) const uint kVertexColors = 0u;
 layout(constant_id = kConstBlendedLayer) const uint kBlendedLayer = 0u;
 
 layout(location = 0) in vec3 normal_in;
 layout(location = 1) in vec2 uv;
+#ifdef TANGENTS
 layout(location = 2) in vec4 tangent_in;
+#endif
+#ifdef COLORS
 layout(location = 3) in vec4 color;
+#endif
 layout(location = 0) out uvec4 words;
 
 vec2 position_in(uint texture_index) {
@@ -36,7 +38,9 @@ vec2 position_in(uint texture_index) {
 
 void main() {
     vec4 base = material.base_color;
-    if (kVertexColors == 1u) base *= color;
+#ifdef COLORS
+    base *= color;
+#endif
     if (kBaseColorTexture == 1u) base *= texture(base_color_map, position_in(0u));
     if (kMask == 1u && base.a < material.factors.w) discard;
 
@@ -49,19 +53,19 @@ void main() {
     }
 
     vec3 normal = normalize(normal_in);
-    if (kNormalTexture == 1u) {
-        vec3 tangent = tangent_in.xyz - normal * dot(normal, tangent_in.xyz);
-        tangent *= inversesqrt(max(dot(tangent, tangent), 1e-12));
-        vec3 bitangent = cross(normal, tangent) * tangent_in.w;
-        vec3 sampled = texture(normal_map, position_in(2u)).xyz * 2.0 - 1.0;
-        // Averaging normals in the smaller levels shortened them: what was lost there is roughness (Toksvig 2005).
-        float shortness = clamp(dot(sampled, sampled), 0.04, 1.0);
-        float alpha = roughness * roughness;
-        float variance = (1.0 - sqrt(shortness)) / sqrt(shortness);
-        roughness = sqrt(sqrt(clamp(alpha * alpha + min(2.0 * variance, 0.3), 0.0, 1.0)));
-        sampled.xy *= material.emissive.w;
-        normal = normalize(tangent * sampled.x + bitangent * sampled.y + normal * sampled.z);
-    }
+#ifdef TANGENTS
+    vec3 tangent = tangent_in.xyz - normal * dot(normal, tangent_in.xyz);
+    tangent *= inversesqrt(max(dot(tangent, tangent), 1e-12));
+    vec3 bitangent = cross(normal, tangent) * tangent_in.w;
+    vec3 sampled = texture(normal_map, position_in(2u)).xyz * 2.0 - 1.0;
+    // Averaging normals in the smaller levels shortened them: what was lost there is roughness (Toksvig 2005).
+    float shortness = clamp(dot(sampled, sampled), 0.04, 1.0);
+    float alpha = roughness * roughness;
+    float variance = (1.0 - sqrt(shortness)) / sqrt(shortness);
+    roughness = sqrt(sqrt(clamp(alpha * alpha + min(2.0 * variance, 0.3), 0.0, 1.0)));
+    sampled.xy *= material.emissive.w;
+    normal = normalize(tangent * sampled.x + bitangent * sampled.y + normal * sampled.z);
+#endif
     if (!gl_FrontFacing) normal = -normal;
 
     words = uvec4(packed_normal_metallic(normal, metallic), packed_color_roughness(base.rgb, roughness), 0u, 0u);

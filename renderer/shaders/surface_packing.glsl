@@ -18,9 +18,14 @@ vec3 from_octahedral(vec2 p) {
     return normalize(n);
 }
 
+// Of any length but 0; 12 + 12 bits.
+uint packed_normal(vec3 normal) {
+    uvec2 p = uvec2(octahedral(normal) * 2047.5 + 2048.0);
+    return p.x | (p.y << 12);
+}
+
 uint packed_normal_metallic(vec3 normal, float metallic) {
-    uvec2 p = uvec2(clamp(octahedral(normal) * 0.5 + 0.5, 0.0, 1.0) * 4095.0 + 0.5);
-    return p.x | (p.y << 12) | (uint(clamp(metallic, 0.0, 1.0) * 255.0 + 0.5) << 24);
+    return packed_normal(normal) | (uint(clamp(metallic, 0.0, 1.0) * 255.0 + 0.5) << 24);
 }
 
 vec3 unpacked_normal(uint word) {
@@ -40,6 +45,10 @@ uint packed_bytes(vec4 v) {
     uvec4 q = uvec4(clamp(v, 0.0, 1.0) * 255.0 + 0.5);
     return q.r | (q.g << 8) | (q.b << 16) | (q.a << 24);
 }
+
+// Bounds of a squared change of texture coordinates per pixel: 2^-48 and just below 2^16.
+const float kLeastSquare = 3.5527136788005009e-15;
+const float kMostSquare = 65000.0;
 
 // 9 bits for each channel, 5 for the exponent.
 uint packed_radiance(vec3 radiance) {
@@ -63,31 +72,26 @@ uint packed_position(vec2 uv) {
 
 vec2 unpacked_position(uint word) { return vec2(uvec2(word & 0xffffu, word >> 16)) * (1.0 / 65536.0); }
 
-// Two axes that stand on a normal and on each other.
-mat2x3 axes_around(vec3 normal) {
-    vec3 axis = abs(normal.x) < 0.9 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0);
-    vec3 a = normalize(cross(normal, axis));
-    return mat2x3(a, cross(normal, a));
+// log2 of the texture coordinates' change per pixel, given their derivatives: the upper bits of a float are nearly its
+// logarithm. 11 bits, to 0.03 levels.
+uint packed_level(vec2 along_x, vec2 along_y) {
+    float square = max(dot(along_x, along_x), dot(along_y, along_y));
+    return (floatBitsToUint(clamp(square, kLeastSquare, kMostSquare)) - floatBitsToUint(kLeastSquare)) >> 18;
 }
 
-// A tangent around a normal that is packed already (13 bits: its first coordinate of the two that add up to 1; the sign
-// of the second), the handedness of the bitangent, and log2 of the texture coordinates' change per pixel (16 bits).
-uint packed_frame(vec3 normal, vec4 tangent, float level) {
-    mat2x3 axes = axes_around(normal);
-    vec2 t = vec2(dot(tangent.xyz, axes[0]), dot(tangent.xyz, axes[1]));
-    float along = t.x / max(abs(t.x) + abs(t.y), 1e-12);
-    uint q = uint(clamp(level + 24.0, 0.0, 31.99) * 2048.0 + 0.5) & 0xffffu;
-    return q | (uint(along * 4095.0 + 4095.5) << 16) | (t.y < 0.0 ? 1u << 29 : 0u) | (tangent.w < 0.0 ? 1u << 30 : 0u);
+float unpacked_level(uint word) { return float(word & 0x7ffu) * (1.0 / 64.0) - 23.97; }
+
+// A tangent of any length but 0 (octahedral, 10 + 10 bits) and the handedness of the bitangent (1).
+uint packed_tangent(vec4 tangent) {
+    uvec2 p = uvec2(octahedral(tangent.xyz) * 511.5 + 512.0);
+    return (p.x << 11) | (p.y << 21) | (tangent.w < 0.0 ? 1u << 31 : 0u);
 }
 
-float unpacked_level(uint word) { return float(word & 0xffffu) * (1.0 / 2048.0) - 24.0; }
-
-// xyz: the unit tangent; w: handedness.
+// xyz: the unit tangent, across the normal; w: handedness.
 vec4 unpacked_tangent(vec3 normal, uint word) {
-    mat2x3 axes = axes_around(normal);
-    vec2 t = vec2(float((word >> 16) & 0x1fffu) * (1.0 / 4095.0) - 1.0, 0.0);
-    t.y = (1.0 - abs(t.x)) * ((word & (1u << 29)) != 0u ? -1.0 : 1.0);
-    return vec4(axes * (t * inversesqrt(dot(t, t))), (word & (1u << 30)) != 0u ? -1.0 : 1.0);
+    vec3 t = from_octahedral(vec2(uvec2((word >> 11) & 0x3ffu, (word >> 21) & 0x3ffu)) * (2.0 / 1023.0) - 1.0);
+    t -= normal * dot(normal, t);
+    return vec4(t * inversesqrt(max(dot(t, t), 1e-6)), (word & (1u << 31)) != 0u ? -1.0 : 1.0);
 }
 
 #endif

@@ -1,0 +1,286 @@
+// Finds connected parts, groups them, and simplifies them with meshoptimizer (Garland and Heckbert 1997,
+// "Surface Simplification Using Quadric Error Metrics").
+#include "renderer/scene_detail.h"
+
+#include <meshoptimizer.h>
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+#include <numeric>
+#include <span>
+#include <unordered_map>
+
+namespace parafovea {
+namespace {
+
+constexpr std::size_t kPieceTriangles = 1200;
+// Below this a draw costs more than its triangles.
+constexpr std::size_t kFewestTriangles = 48;
+// A level is worth its memory if it has at most this share of the triangles of the one before.
+constexpr double kWorthwhile = 0.8;
+// The first level's error as a share of the piece's radius, and how errors grow from level to level.
+constexpr float kFirstError = 1.0f / 1024, kErrorGrowth = 1.7f, kLargestError = 0.25f;
+
+using Triangle = std::array<std::uint32_t, 3>;
+
+// The triangles of a mesh with their connected parts. Corners at one place are one corner here, whatever else
+// differs between their vertices.
+struct ConnectedMesh {
+    std::vector<glm::vec3> places;  // of each vertex; equal where vertices meet
+    std::vector<Triangle> triangles;
+    std::vector<std::uint32_t> part_of;  // each triangle's part, numbered in the order of first triangles
+    std::size_t part_count = 0;
+};
+
+// Rounds places so that seams close: both sides of a tube's seam differ in the last bits.
+std::vector<glm::vec3> closed_places(const Scene& scene, const SceneMesh& mesh) {
+    const float extent = std::max(mesh.bounds.radius(), 1e-20f);
+    const float step = std::exp2(std::floor(std::log2(extent)) - 19);
+    std::vector<glm::vec3> places;
+    places.reserve(mesh.vertex_count);
+    for (std::uint32_t v = 0; v < mesh.vertex_count; ++v)
+        places.push_back(glm::round(scene.vertices[mesh.first_vertex + v].position / step) * step + 0.0f);
+    return places;
+}
+
+std::uint32_t root_of(std::vector<std::uint32_t>& parents, std::uint32_t v) {
+    while (parents[v] != v) v = parents[v] = parents[parents[v]];
+    return v;
+}
+
+ConnectedMesh connected(const Scene& scene, const SceneMesh& mesh) {
+    ConnectedMesh c;
+    c.places = closed_places(scene, mesh);
+    std::vector<std::uint32_t> parents(mesh.vertex_count);
+    std::iota(parents.begin(), parents.end(), 0u);
+    std::vector<std::uint32_t> same(mesh.vertex_count);
+    if (mesh.index_count > 0) {
+        meshopt_generateVertexRemap(same.data(), &scene.indices[mesh.first_index], mesh.index_count,
+                                    c.places.data(), c.places.size(), sizeof(glm::vec3));
+    }
+    std::vector<std::uint32_t> first_at(mesh.vertex_count, ~0u);
+    for (std::uint32_t i = 0; i + 2 < mesh.index_count; i += 3) {
+        Triangle t;
+        for (std::uint32_t k = 0; k < 3; ++k) {
+            t[k] = scene.indices[mesh.first_index + i + k];
+            std::uint32_t& first = first_at[same[t[k]]];
+            if (first == ~0u) first = t[k];
+            parents[root_of(parents, t[k])] = root_of(parents, first);
+        }
+        for (std::uint32_t k = 1; k < 3; ++k) parents[root_of(parents, t[k])] = root_of(parents, t[0]);
+        c.triangles.push_back(t);
+    }
+    std::vector<std::uint32_t> number(mesh.vertex_count, ~0u);
+    for (const Triangle& t : c.triangles) {
+        std::uint32_t& part = number[root_of(parents, t[0])];
+        if (part == ~0u) part = static_cast<std::uint32_t>(c.part_count++);
+        c.part_of.push_back(part);
+    }
+    return c;
+}
+
+// Parts in groups of about kPieceTriangles that lie near each other; of each group its triangles in the order
+// of the mesh.
+std::vector<std::vector<std::uint32_t>> grouped(const ConnectedMesh& mesh) {
+    struct Part {
+        Bounds bounds;
+        std::vector<std::uint32_t> triangles;
+    };
+    std::vector<Part> parts(mesh.part_count);
+    for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
+        Part& part = parts[mesh.part_of[i]];
+        part.triangles.push_back(i);
+        for (std::uint32_t v : mesh.triangles[i]) part.bounds.add(mesh.places[v]);
+    }
+    std::vector<std::uint32_t> order(parts.size());
+    std::iota(order.begin(), order.end(), 0u);
+    std::vector<std::vector<std::uint32_t>> groups;
+    std::vector<std::span<std::uint32_t>> waiting{order};
+    while (!waiting.empty()) {
+        const std::span<std::uint32_t> some = waiting.back();
+        waiting.pop_back();
+        std::size_t count = 0;
+        Bounds centres;
+        for (std::uint32_t p : some) {
+            count += parts[p].triangles.size();
+            centres.add(parts[p].bounds.centre());
+        }
+        if (count <= kPieceTriangles || some.size() == 1) {
+            std::vector<std::uint32_t> group;
+            for (std::uint32_t p : some)
+                group.insert(group.end(), parts[p].triangles.begin(), parts[p].triangles.end());
+            std::sort(group.begin(), group.end());
+            if (!group.empty()) groups.push_back(std::move(group));
+            continue;
+        }
+        const glm::vec3 size = centres.high - centres.low;
+        const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+        std::sort(some.begin(), some.end(), [&](std::uint32_t a, std::uint32_t b) {
+            return std::pair(parts[a].bounds.centre()[axis], a) <
+                   std::pair(parts[b].bounds.centre()[axis], b);
+        });
+        waiting.push_back(some.subspan(some.size() / 2));
+        waiting.push_back(some.first(some.size() / 2));
+    }
+    return groups;
+}
+
+float squared_distance(glm::vec3 p, glm::vec3 a, glm::vec3 b) {
+    const glm::vec3 along = b - a;
+    const float length = glm::dot(along, along);
+    const float t = length > 0 ? std::clamp(glm::dot(p - a, along) / length, 0.0f, 1.0f) : 0.0f;
+    const glm::vec3 off = p - (a + t * along);
+    return glm::dot(off, off);
+}
+
+float squared_distance(glm::vec3 p, glm::vec3 a, glm::vec3 b, glm::vec3 c) {
+    const glm::vec3 n = glm::cross(b - a, c - a);
+    const float area = glm::dot(n, n);
+    // Above the triangle its plane is nearest, elsewhere one of its edges.
+    if (area > 0 && glm::dot(glm::cross(b - a, p - a), n) >= 0 &&
+        glm::dot(glm::cross(c - b, p - b), n) >= 0 && glm::dot(glm::cross(a - c, p - c), n) >= 0) {
+        const float height = glm::dot(p - a, n);
+        return height * height / area;
+    }
+    return std::min(squared_distance(p, a, b),
+                    std::min(squared_distance(p, b, c), squared_distance(p, c, a)));
+}
+
+// One piece while it is simplified: its own vertices, numbered from 0.
+struct WorkingPiece {
+    std::vector<glm::vec3> places;
+    std::vector<std::uint32_t> mesh_vertex;
+    std::vector<std::uint32_t> part;  // of each vertex
+    std::vector<std::uint32_t> indices;
+};
+
+WorkingPiece working_piece(const ConnectedMesh& mesh, std::span<const std::uint32_t> triangles) {
+    WorkingPiece piece;
+    std::unordered_map<std::uint32_t, std::uint32_t> numbers;
+    for (std::uint32_t t : triangles) {
+        for (std::uint32_t v : mesh.triangles[t]) {
+            const auto [found, is_new] = numbers.try_emplace(v, static_cast<std::uint32_t>(numbers.size()));
+            if (is_new) {
+                piece.places.push_back(mesh.places[v]);
+                piece.mesh_vertex.push_back(v);
+                piece.part.push_back(mesh.part_of[t]);
+            }
+            piece.indices.push_back(found->second);
+        }
+    }
+    return piece;
+}
+
+// The largest distance of a vertex from the triangles that are left of its part; infinite where none is left.
+float deviation(const WorkingPiece& piece, std::span<const std::uint32_t> left) {
+    std::unordered_map<std::uint32_t, std::vector<std::uint32_t>> triangles_of_part;
+    std::vector<bool> kept(piece.places.size(), false);
+    for (std::uint32_t i = 0; i < left.size(); i += 3) {
+        triangles_of_part[piece.part[left[i]]].push_back(i);
+        for (std::uint32_t k = 0; k < 3; ++k) kept[left[i + k]] = true;
+    }
+    float largest = 0;
+    std::size_t last = 0;  // neighbours are near the same triangle, most often
+    for (std::size_t v = 0; v < piece.places.size(); ++v) {
+        if (kept[v]) continue;
+        const std::vector<std::uint32_t>& candidates = triangles_of_part[piece.part[v]];
+        float nearest = 1e30f;
+        for (std::size_t n = 0; n < candidates.size() && nearest > largest; ++n) {
+            const std::size_t at = (last + n) % candidates.size();
+            const std::uint32_t i = candidates[at];
+            const float here = squared_distance(piece.places[v], piece.places[left[i]],
+                                                piece.places[left[i + 1]], piece.places[left[i + 2]]);
+            if (here >= nearest) continue;
+            nearest = here;
+            if (nearest <= largest) last = at;
+        }
+        largest = std::max(largest, nearest);
+    }
+    return std::sqrt(largest);
+}
+
+std::vector<std::uint32_t> simplified(const WorkingPiece& piece, std::span<const std::uint32_t> indices,
+                                      float error_m) {
+    std::vector<std::uint32_t> left(indices.size());
+    const float scale = meshopt_simplifyScale(&piece.places[0].x, piece.places.size(), sizeof(glm::vec3));
+    left.resize(meshopt_simplify(left.data(), indices.data(), indices.size(), &piece.places[0].x,
+                                 piece.places.size(), sizeof(glm::vec3), 0, error_m / scale, 0, nullptr));
+    return left;
+}
+
+struct SimplerLevel {
+    std::vector<std::uint32_t> indices;  // of the working piece
+    float error_m = 0;
+};
+
+std::vector<SimplerLevel> simpler_levels(const WorkingPiece& piece, float radius) {
+    std::vector<SimplerLevel> levels;
+    if (piece.indices.size() / 3 < kFewestTriangles || !(radius > 0)) return levels;
+    const auto worthwhile = [](std::size_t fewer, std::size_t than) {
+        return static_cast<double>(fewer) <= kWorthwhile * static_cast<double>(than);
+    };
+    // Leaves and the like, that nothing makes simpler.
+    if (!worthwhile(simplified(piece, piece.indices, kLargestError * radius).size(), piece.indices.size()))
+        return levels;
+    std::size_t last_count = piece.indices.size();
+    for (float error = kFirstError; error <= kLargestError; error *= kErrorGrowth) {
+        const std::vector<std::uint32_t>& from = levels.empty() ? piece.indices : levels.back().indices;
+        SimplerLevel level{simplified(piece, from, error * radius), 0};
+        if (level.indices.empty() || !worthwhile(level.indices.size(), last_count)) continue;
+        level.error_m = deviation(piece, level.indices);
+        if (level.error_m > kLargestError * radius) break;
+        if (!levels.empty() && level.error_m <= levels.back().error_m) levels.pop_back();
+        last_count = level.indices.size();
+        levels.push_back(std::move(level));
+        if (last_count / 3 < kFewestTriangles / 2) break;
+    }
+    return levels;
+}
+
+}  // namespace
+
+SceneDetail make_detail(const Scene& scene, bool simplify) {
+    SceneDetail detail;
+    detail.pieces.resize(scene.meshes.size());
+    for (std::size_t m = 0; m < scene.meshes.size(); ++m) {
+        const SceneMesh& mesh = scene.meshes[m];
+        const ConnectedMesh whole = connected(scene, mesh);
+        const auto groups = grouped(whole);
+        detail.first_index.push_back(static_cast<std::uint32_t>(detail.indices.size()));
+        for (const auto& group : groups) {
+            MeshPiece piece;
+            piece.levels.push_back({static_cast<std::uint32_t>(detail.indices.size()),
+                                    static_cast<std::uint32_t>(3 * group.size()), 0});
+            for (std::uint32_t t : group) {
+                for (std::uint32_t v : whole.triangles[t]) {
+                    piece.bounds.add(scene.vertices[mesh.first_vertex + v].position);
+                    detail.indices.push_back(v);
+                }
+            }
+            detail.pieces[m].push_back(std::move(piece));
+        }
+        for (std::size_t g = 0; simplify && g < groups.size(); ++g) {
+            MeshPiece& piece = detail.pieces[m][g];
+            const WorkingPiece working = working_piece(whole, groups[g]);
+            for (SimplerLevel& level : simpler_levels(working, piece.bounds.radius())) {
+                meshopt_optimizeVertexCache(level.indices.data(), level.indices.data(), level.indices.size(),
+                                            working.places.size());
+                piece.levels.push_back({static_cast<std::uint32_t>(detail.indices.size()),
+                                        static_cast<std::uint32_t>(level.indices.size()), level.error_m});
+                for (std::uint32_t v : level.indices) detail.indices.push_back(working.mesh_vertex[v]);
+            }
+        }
+    }
+    return detail;
+}
+
+const DetailLevel& level_for(const MeshPiece& piece, float most_error_m) {
+    assert(!piece.levels.empty());
+    std::size_t chosen = 0;
+    while (chosen + 1 < piece.levels.size() && piece.levels[chosen + 1].error_m <= most_error_m) ++chosen;
+    return piece.levels[chosen];
+}
+
+}  // namespace parafovea
