@@ -23,6 +23,7 @@ double deviation(std::int64_t squares, double sum, std::size_t k) {
     return std::sqrt(std::max(0.0, static_cast<double>(squares) - sum * sum / static_cast<double>(k)));
 }
 
+// By how much at most a row moves it.
 double deviation_of_row(std::size_t ones, std::size_t k) {
     return std::sqrt(static_cast<double>(ones * (k - ones)) / static_cast<double>(k));
 }
@@ -96,6 +97,58 @@ class Ranks {
     std::vector<std::int64_t> step_;
 };
 
+// What the rows not yet placed can still do to a state's totals.
+class RowsAhead {
+  public:
+    // In the order they will be placed: how many ones they hold, of k cells.
+    RowsAhead(std::span<const std::int64_t> rows_with_total, std::span<const std::size_t> order)
+        : k_(rows_with_total.size() - 1) {
+        for (std::size_t ones : order)
+            for (std::int64_t repeat = 0; repeat < rows_with_total[ones]; ++repeat) {
+                reach_ += deviation_of_row(ones, k_);
+                growth_ += growth_by(ones);
+                placed_ += static_cast<double>(ones);
+            }
+        all_ones_ = placed_;
+        placed_ = 0.0;
+    }
+    void place(std::size_t ones) {
+        reach_ -= deviation_of_row(ones, k_);
+        growth_ -= growth_by(ones);
+        placed_ += static_cast<double>(ones);
+    }
+    double reach() const { return reach_; }    // by how much they may move the deviation, either way
+    double growth() const { return growth_; }  // of sum C_j^2, on average
+    double placed() const { return placed_; }  // ones in the rows before
+    double all_ones() const { return all_ones_; }
+
+  private:
+    // (C + x)^2 - C^2 = 2 C x + x, x being 1 in a share ones / k of the cells.
+    double growth_by(std::size_t ones) const {
+        const double r = static_cast<double>(ones);
+        return 2.0 * r / static_cast<double>(k_) * placed_ + r;
+    }
+    std::size_t k_;
+    double reach_ = 0.0, growth_ = 0.0, placed_ = 0.0, all_ones_ = 0.0;
+};
+
+// Sorted totals (k numbers each, in `totals`) and the place of their share in an array by rank.
+struct States {
+    std::vector<std::uint16_t> totals;
+    std::vector<std::size_t> rank;
+
+    void clear() {
+        totals.clear();
+        rank.clear();
+    }
+};
+
+std::int64_t sum_of_squares(const std::uint16_t* totals, std::size_t k) {
+    std::int64_t squares = 0;
+    for (std::size_t j = 0; j < k; ++j) squares += std::int64_t{totals[j]} * totals[j];
+    return squares;
+}
+
 }  // namespace
 
 std::optional<ArrangementShares> enumerate_column_totals(std::span<const std::int64_t> rows_with_total,
@@ -110,10 +163,8 @@ std::optional<ArrangementShares> enumerate_column_totals(std::span<const std::in
     if (states > kMostStates) return std::nullopt;
     const Ranks ranks(columns, most);
 
-    // A state is its totals (k numbers in `totals`) and its share (in `share`, by rank).
     std::vector<double> share(static_cast<std::size_t>(states), 0.0), next_share(share.size(), 0.0);
-    std::vector<std::uint16_t> totals(k, 0), next_totals;
-    std::vector<std::size_t> rank_of{0}, next_rank_of;
+    States now{std::vector<std::uint16_t>(k, 0), {0}}, next;
     share[0] = 1.0;
 
     // Rows with few or many ones spread the states least, so they come first.
@@ -121,28 +172,8 @@ std::optional<ArrangementShares> enumerate_column_totals(std::span<const std::in
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::sort(order.begin(), order.end(),
               [&](std::size_t a, std::size_t b) { return std::min(a, k - a) < std::min(b, k - b); });
-    // A row moves the totals' deviation from their mean by sqrt(ones (k - ones) / k). By the triangle
-    // inequality a state too far out, or too far in, for the rows left to matter is settled at once.
-    double reach = 0.0;
-    std::int64_t ones_left = 0;
-    for (std::size_t ones = 0; ones <= k; ++ones) {
-        reach += static_cast<double>(rows_with_total[ones]) * deviation_of_row(ones, k);
-        ones_left += rows_with_total[ones] * static_cast<std::int64_t>(ones);
-    }
-    const double all_ones = static_cast<double>(ones_left), wanted = deviation(observed, all_ones, k);
-    // How much sum C_j^2 grows on average over the rows left: (C + x)^2 - C^2 = 2 C x + x, x being 1 in a
-    // share ones / k of the cells.
-    double growth = 0.0, placed = 0.0;
-    const auto row_growth = [&](std::size_t ones) {
-        const double r = static_cast<double>(ones);
-        return 2.0 * r / static_cast<double>(k) * placed + r;
-    };
-    for (std::size_t ones : order)
-        for (std::int64_t repeat = 0; repeat < rows_with_total[ones]; ++repeat) {
-            growth += row_growth(ones);
-            placed += static_cast<double>(ones);
-        }
-    placed = 0.0;
+    RowsAhead ahead(rows_with_total, order);
+    const double wanted = deviation(observed, ahead.all_ones(), k);
 
     ArrangementShares result;
     std::int64_t work = 0;
@@ -150,19 +181,19 @@ std::optional<ArrangementShares> enumerate_column_totals(std::span<const std::in
         if (rows_with_total[ones] == 0 || ones == 0) continue;
         std::vector<std::vector<Move>> moves(std::size_t{1} << k);
         for (std::int64_t repeat = 0; repeat < rows_with_total[ones]; ++repeat) {
-            next_totals.clear();
-            next_rank_of.clear();
-            for (std::size_t state = 0; state < rank_of.size(); ++state) {
-                const std::uint16_t* c = &totals[state * k];
-                const std::size_t rank = rank_of[state];
+            next.clear();
+            for (std::size_t state = 0; state < now.rank.size(); ++state) {
+                const std::uint16_t* c = &now.totals[state * k];
+                const std::size_t rank = now.rank[state];
                 const double weight = share[rank];
                 share[rank] = 0.0;
-                std::int64_t squares = 0;
-                for (std::size_t j = 0; j < k; ++j) squares += std::int64_t{c[j]} * c[j];
-                const double now = deviation(squares, placed, k);
-                const bool above = now - reach > wanted + kSettledMargin;
-                if (above || now + reach < wanted - kSettledMargin) {
-                    result.mean += weight * (static_cast<double>(squares) + growth);
+                // By the triangle inequality a state too far out, or too far in, for the rows left to matter
+                // is settled at once.
+                const std::int64_t squares = sum_of_squares(c, k);
+                const double away = deviation(squares, ahead.placed(), k);
+                const bool above = away - ahead.reach() > wanted + kSettledMargin;
+                if (above || away + ahead.reach() < wanted - kSettledMargin) {
+                    result.mean += weight * (static_cast<double>(squares) + ahead.growth());
                     if (above) result.at_least += weight;
                     continue;
                 }
@@ -183,28 +214,23 @@ std::optional<ArrangementShares> enumerate_column_totals(std::span<const std::in
                     if (arriving == 0.0) continue;  // below 1e-308 of all arrangements
                     double& target = next_share[static_cast<std::size_t>(to)];
                     if (target == 0.0) {
-                        next_rank_of.push_back(static_cast<std::size_t>(to));
+                        next.rank.push_back(static_cast<std::size_t>(to));
                         for (std::size_t j = 0; j < k; ++j)
-                            next_totals.push_back(
+                            next.totals.push_back(
                                 static_cast<std::uint16_t>(c[j] + (move.positions >> j & 1u)));
                     }
                     target += arriving;
                 }
             }
             share.swap(next_share);
-            totals.swap(next_totals);
-            rank_of.swap(next_rank_of);
-            growth -= row_growth(ones);
-            placed += static_cast<double>(ones);
-            reach -= deviation_of_row(ones, k);
+            std::swap(now, next);
+            ahead.place(ones);
         }
     }
 
-    for (std::size_t state = 0; state < rank_of.size(); ++state) {
-        std::int64_t squares = 0;
-        for (std::size_t j = 0; j < k; ++j)
-            squares += static_cast<std::int64_t>(totals[state * k + j]) * totals[state * k + j];
-        const double weight = share[rank_of[state]];
+    for (std::size_t state = 0; state < now.rank.size(); ++state) {
+        const std::int64_t squares = sum_of_squares(&now.totals[state * k], k);
+        const double weight = share[now.rank[state]];
         result.mean += weight * static_cast<double>(squares);
         if (squares >= observed) result.at_least += weight;
         if (squares == observed) result.equal += weight;

@@ -3,6 +3,7 @@
 
 #include <future>
 #include <stdexcept>
+#include <utility>
 
 #include "analysis/condition_figure.h"
 #include "analysis/figure.h"
@@ -61,6 +62,32 @@ std::vector<Figure> figures_of(const Tally& tally, const StudyDescription& study
     return figures;
 }
 
+// File names and texts.
+std::vector<std::pair<std::string, std::string>> tables_of(const StudyDescription& study,
+                                                           const StudyRecordings& recordings,
+                                                           const StudyResults& results,
+                                                           const std::string& main_figure) {
+    std::vector<std::pair<std::string, std::string>> tables{
+        {main_figure + ".csv", condition_csv(results.conditions)},
+        {"table1.csv", cochran_csv(results.cochran)},
+        {"table1.md", cochran_markdown(results.cochran, study.title, study.data_origin)},
+        {"pairwise.csv", pairwise_csv(results.effects)},
+        {"psychometric.csv", psychometric_csv(results.psychometric)}};
+    if (!results.sensitivity.empty())
+        tables.emplace_back("sensitivity.csv", sensitivity_csv(results.sensitivity));
+    if (!results.participant_sensitivity.empty())
+        tables.emplace_back("sensitivity_participants.csv",
+                            participant_sensitivity_csv(results.participant_sensitivity));
+    if (!results.validation.empty())
+        tables.emplace_back("validation.csv", validation_csv(results.validation));
+    if (!results.response_times.empty())
+        tables.emplace_back("response_times.csv", response_time_csv(results.response_times));
+    if (!results.without_exclusions.empty())
+        tables.emplace_back("exclusions.csv", exclusion_csv(results.conditions, results.without_exclusions));
+    if (!recordings.sessions.empty()) tables.emplace_back("quality.csv", quality_csv(recordings));
+    return tables;
+}
+
 }  // namespace
 
 AnalysisFiles write_analysis(const StudyTally& tallies, const StudyDescription& study,
@@ -103,20 +130,8 @@ AnalysisFiles write_analysis(const StudyTally& tallies, const StudyDescription& 
         files.written.push_back(out / name);
         return out / name;
     };
-    write(main_figure + ".csv", condition_csv(results.conditions));
-    files.table = write("table1.csv", cochran_csv(results.cochran));
-    write("table1.md", cochran_markdown(results.cochran, study.title, study.data_origin));
-    write("pairwise.csv", pairwise_csv(results.effects));
-    write("psychometric.csv", psychometric_csv(results.psychometric));
-    if (!results.sensitivity.empty()) write("sensitivity.csv", sensitivity_csv(results.sensitivity));
-    if (!results.participant_sensitivity.empty())
-        write("sensitivity_participants.csv", participant_sensitivity_csv(results.participant_sensitivity));
-    if (!results.validation.empty()) write("validation.csv", validation_csv(results.validation));
-    if (!results.response_times.empty())
-        write("response_times.csv", response_time_csv(results.response_times));
-    if (!results.without_exclusions.empty())
-        write("exclusions.csv", exclusion_csv(results.conditions, results.without_exclusions));
-    if (!recordings.sessions.empty()) write("quality.csv", quality_csv(recordings));
+    for (const auto& [name, text] : tables_of(study, recordings, results, main_figure)) write(name, text);
+    files.table = out / "table1.csv";
 
     // The report holds the figures.
     drawn.get();
