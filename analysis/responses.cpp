@@ -82,6 +82,86 @@ bool parse_flag(const Place& place, const char* column, std::string_view text) {
     fail(place, std::string("'") + column + "' is '" + std::string(text) + "'; expected 0 or 1");
 }
 
+// Which field of a line holds what.
+class ResponseColumns {
+  public:
+    // The fields name the columns.
+    ResponseColumns(const std::vector<std::string>& names, const Place& place) : width_(names.size()) {
+        std::unordered_map<std::string, std::size_t> columns;
+        for (std::size_t i = 0; i < names.size(); ++i)
+            if (!columns.emplace(std::string(trimmed(names[i])), i).second)
+                fail(place, "the column '" + names[i] + "' appears twice");
+        for (const char* required : {"participant", "session", "sigma", "alpha", "identical"})
+            if (!columns.contains(required))
+                fail(place, std::string("no column '") + required +
+                                "'; expected a header with participant,session,sigma,alpha,identical");
+        const auto column = [&](const char* name) {
+            const auto found = columns.find(name);
+            return found == columns.end() ? kAbsent : found->second;
+        };
+        participant_ = column("participant"), session_ = column("session"), sigma_ = column("sigma");
+        alpha_ = column("alpha"), identical_ = column("identical"), validation_ = column("validation");
+        method_ = column("method"), scene_ = column("scene"), site_ = column("site");
+        block_ = column("block"), trial_ = column("trial"), foveated_first_ = column("foveated_first");
+        response_time_ = column("response_time_s"), dropped_ = column("dropped_frames");
+        gaze_loss_ = column("gaze_loss"), excluded_ = column("excluded_reason");
+    }
+
+    // One response; an optional column may be empty.
+    Response response(const std::vector<std::string>& fields, const Place& place) const {
+        if (fields.size() != width_)
+            fail(place, std::to_string(fields.size()) + " fields; expected " + std::to_string(width_) +
+                            " as in the header");
+        const auto given = [&](std::size_t index) {
+            return index != kAbsent && !trimmed(fields[index]).empty();
+        };
+        const auto whole = [&](std::size_t index, const char* name) {
+            return parse_number<int>(place, name, fields[index], "a whole number");
+        };
+        const auto share = [&](std::size_t index, const char* name) {
+            return parse_number<double>(place, name, fields[index], "a share from 0 to 1");
+        };
+        const auto strength = [&](std::size_t index, const char* name, bool validation) {
+            const double value = parse_number<double>(place, name, fields[index], "a number above 0");
+            if (!validation && (value <= 0.0 || value > 1e6))
+                fail(place,
+                     "'" + std::string(name) + "' is '" + fields[index] + "'; expected a number above 0");
+            return value;
+        };
+        Response response;
+        response.participant = trimmed(fields[participant_]);
+        if (response.participant.empty()) fail(place, "'participant' is empty; expected an identifier");
+        response.session = whole(session_, "session");
+        if (given(validation_)) response.validation = parse_flag(place, "validation", fields[validation_]);
+        if (!response.validation || given(sigma_))
+            response.sigma = strength(sigma_, "sigma", response.validation);
+        if (!response.validation || given(alpha_))
+            response.alpha = strength(alpha_, "alpha", response.validation);
+        if (given(method_)) response.method = trimmed(fields[method_]);
+        if (given(scene_)) response.scene = trimmed(fields[scene_]);
+        if (given(site_)) response.site = trimmed(fields[site_]);
+        if (given(block_)) response.block = whole(block_, "block");
+        if (given(trial_)) response.trial = whole(trial_, "trial");
+        if (given(foveated_first_))
+            response.foveated_first = parse_flag(place, "foveated_first", fields[foveated_first_]);
+        if (given(response_time_))
+            response.response_time_s =
+                parse_number<double>(place, "response_time_s", fields[response_time_], "seconds");
+        if (given(dropped_)) response.dropped_frames = share(dropped_, "dropped_frames");
+        if (given(gaze_loss_)) response.gaze_loss = share(gaze_loss_, "gaze_loss");
+        if (given(excluded_)) response.excluded_reason = trimmed(fields[excluded_]);
+        response.answered = given(identical_) || response.excluded_reason.empty();
+        if (response.answered) response.identical = parse_flag(place, "identical", fields[identical_]);
+        return response;
+    }
+
+  private:
+    static constexpr std::size_t kAbsent = std::string::npos;
+    std::size_t width_;
+    std::size_t participant_, session_, sigma_, alpha_, identical_, validation_, method_, scene_, site_,
+        block_, trial_, foveated_first_, response_time_, dropped_, gaze_loss_, excluded_;
+};
+
 }  // namespace
 
 void for_each_response_csv(const std::filesystem::path& path,
@@ -93,87 +173,22 @@ void for_each_response_csv(const std::filesystem::path& path,
 
     std::string line;
     std::vector<std::string> fields;
-    std::unordered_map<std::string, std::size_t> columns;
-    std::size_t width = 0;
+    std::optional<ResponseColumns> columns;  // once the first line that is not blank has named them
     std::int64_t line_number = 0;
-    const auto column = [&](const char* name) {
-        const auto found = columns.find(name);
-        return found == columns.end() ? std::string::npos : found->second;
-    };
-    std::size_t participant = 0, session = 0, sigma = 0, alpha = 0, identical = 0, validation = 0, method = 0,
-                scene = 0, site = 0, block = 0, trial = 0, foveated_first = 0, response_time = 0, dropped = 0,
-                gaze_loss = 0, excluded = 0;
     while (std::getline(input, line)) {
         const Place place{file, ++line_number};
         if (line_number == 1 && line.starts_with("\xEF\xBB\xBF")) line.erase(0, 3);
         if (!line.empty() && line.back() == '\r') line.pop_back();
         if (trimmed(line).empty()) continue;
         split_fields(line, place, fields);
-
-        // The first line that is not blank names the columns.
-        if (width == 0) {
-            width = fields.size();
-            for (std::size_t i = 0; i < width; ++i)
-                if (!columns.emplace(std::string(trimmed(fields[i])), i).second)
-                    fail(place, "the column '" + fields[i] + "' appears twice");
-            for (const char* required : {"participant", "session", "sigma", "alpha", "identical"})
-                if (!columns.contains(required))
-                    fail(place, std::string("no column '") + required +
-                                    "'; expected a header with participant,session,sigma,alpha,identical");
-            participant = column("participant"), session = column("session"), sigma = column("sigma");
-            alpha = column("alpha"), identical = column("identical"), validation = column("validation");
-            method = column("method"), scene = column("scene"), site = column("site"),
-            block = column("block");
-            trial = column("trial"), foveated_first = column("foveated_first");
-            response_time = column("response_time_s"), dropped = column("dropped_frames");
-            gaze_loss = column("gaze_loss"), excluded = column("excluded_reason");
-            continue;
-        }
-        if (fields.size() != width)
-            fail(place, std::to_string(fields.size()) + " fields; expected " + std::to_string(width) +
-                            " as in the header");
-
-        // Every other line is one response; an optional column may be empty.
-        Response response;
-        const auto given = [&](std::size_t index) {
-            return index != std::string::npos && !trimmed(fields[index]).empty();
-        };
-        response.participant = trimmed(fields[participant]);
-        if (response.participant.empty()) fail(place, "'participant' is empty; expected an identifier");
-        response.session = parse_number<int>(place, "session", fields[session], "a whole number");
-        if (given(validation)) response.validation = parse_flag(place, "validation", fields[validation]);
-        if (!response.validation || given(sigma))
-            response.sigma = parse_number<double>(place, "sigma", fields[sigma], "a number above 0");
-        if (!response.validation || given(alpha))
-            response.alpha = parse_number<double>(place, "alpha", fields[alpha], "a number above 0");
-        if (!response.validation && (response.sigma <= 0.0 || response.sigma > 1e6))
-            fail(place, "'sigma' is '" + fields[sigma] + "'; expected a number above 0");
-        if (!response.validation && (response.alpha <= 0.0 || response.alpha > 1e6))
-            fail(place, "'alpha' is '" + fields[alpha] + "'; expected a number above 0");
-        if (given(method)) response.method = trimmed(fields[method]);
-        if (given(scene)) response.scene = trimmed(fields[scene]);
-        if (given(site)) response.site = trimmed(fields[site]);
-        if (given(block)) response.block = parse_number<int>(place, "block", fields[block], "a whole number");
-        if (given(trial)) response.trial = parse_number<int>(place, "trial", fields[trial], "a whole number");
-        if (given(foveated_first))
-            response.foveated_first = parse_flag(place, "foveated_first", fields[foveated_first]);
-        if (given(response_time))
-            response.response_time_s =
-                parse_number<double>(place, "response_time_s", fields[response_time], "seconds");
-        if (given(dropped))
-            response.dropped_frames =
-                parse_number<double>(place, "dropped_frames", fields[dropped], "a share from 0 to 1");
-        if (given(gaze_loss))
-            response.gaze_loss =
-                parse_number<double>(place, "gaze_loss", fields[gaze_loss], "a share from 0 to 1");
-        if (given(excluded)) response.excluded_reason = trimmed(fields[excluded]);
-        response.answered = given(identical) || response.excluded_reason.empty();
-        if (response.answered) response.identical = parse_flag(place, "identical", fields[identical]);
-        use(response);
+        if (columns)
+            use(columns->response(fields, place));
+        else
+            columns.emplace(fields, place);
     }
     if (input.bad())
         throw std::runtime_error(file + ": reading stopped after line " + std::to_string(line_number));
-    if (width == 0) throw std::runtime_error(file + ":1: the file is empty; expected a header and responses");
+    if (!columns) throw std::runtime_error(file + ":1: the file is empty; expected a header and responses");
 }
 
 std::vector<Response> read_responses_csv(const std::filesystem::path& path) {
