@@ -62,10 +62,10 @@ shared::GridAxis log_axis(double screen, double buffer, double gaze) {
 }  // namespace
 
 GridPlan plan_rings(MethodParameters& parameters, SizePx screen, PointPx wanted_gaze) {
-    const double slope = parameters.number("mar_slope", 6, 0.5, 200) / shorter_side_px(screen);
-    const double start = parameters.number("mar_start", 0.015, 0, 0.7) * shorter_side_px(screen);
+    const double slope = parameters.number("mar_slope", 5.7, 0.5, 200) / shorter_side_px(screen);
+    const double start = parameters.number("mar_start", 0, 0, 0.7) * shorter_side_px(screen);
     const bool adaptive = parameters.flag("adaptive", false);
-    const double detail = parameters.number("detail", 0.025, 0, 1);
+    const double detail = parameters.number("detail", 0.03, 0, 1);
     GridPlan plan;
     plan.kind = shared::kGridRings;
     plan.culling = parameters.flag("culling", true);

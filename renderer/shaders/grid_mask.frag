@@ -158,7 +158,8 @@ void main() {
         float spacing = spacing_at(grid.slope, grid.start, length(texel - grid.gaze));
         // The jitter chooses other pixels in every frame.
         float dither = fract(dither_at(floor(texel.x), floor(texel.y)) + jitter.x + 0.618034 * jitter.y);
-        needed = dither * spacing * spacing < 1.0;
+        // Whatever the gaze, there is a sample to fill the screen with.
+        needed = dither * spacing * spacing < 1.0 || max(texel.x, texel.y) < 1.0;
     } else {
         needed = needed_layered(texel);
     }

@@ -206,6 +206,33 @@ TEST_P(EveryMethod, TellsASpacingThatIsFinestAtTheGaze) {
     }
 }
 
+TEST_P(EveryMethod, TellsTheSpacingThatItsSamplesHave) {
+    if (GetParam() == "kfr" || GetParam() == "log_polar")
+        GTEST_SKIP() << "their rays lie closer than any pixel reads around the gaze; see the map's own tests";
+    // One sample for each spacing's area, added up over the screen, is every sample.
+    const SizePx size{320, 180};
+    PictureMethod drawing(gpu_, noise_picture(size), GetParam());
+    RenderMethod wanted = method();
+    if (wanted.name == "mrs") wanted.numbers["detail"] = 0;
+    const bool layered =
+        wanted.name == "f3d" || wanted.name == "quad_views" || wanted.name == "swafford_resolution";
+    if (layered) wanted.numbers["blend"] = 0.01;
+    for (const PointPx gaze : {centre_of(size), PointPx{70, 50}, PointPx{319, 3}}) {
+        drawing.draw(wanted, gaze);
+        double expected = 0;
+        for (int y = 0; y < size.height; ++y) {
+            for (int x = 0; x < size.width; ++x) {
+                const SampleSpacing spacing = drawing.spacing_at({x + 0.5, y + 0.5});
+                expected += 1 / (spacing.radial_px * spacing.tangential_px);
+            }
+        }
+        const double found = static_cast<double>(drawing.statistics().shaded_samples);
+        // Samples just outside the screen, and below what fades over them, are read, too.
+        EXPECT_GT(found, 0.93 * expected) << gaze.x;
+        EXPECT_LT(found, 1.3 * expected) << gaze.x;
+    }
+}
+
 TEST(EffortMethods, SpendLessFarFromTheGazeAndAllAtIt) {
     Gpu gpu({.validation = true});
     const Scene scene = load_scene("primitives");

@@ -74,30 +74,73 @@ TEST(Elementary, logarithm_exponential_and_root_keep_their_stated_errors) {
     for (const float x : {1e30f, 1000.0f}) EXPECT_TRUE(std::isfinite(shared::natural_exp(x)));
 }
 
+// Any setting that a method takes, extremes included.
+RenderMethod random_setting(const std::string& name, Random& random) {
+    RenderMethod setting{name, {}, {}};
+    auto& numbers = setting.numbers;
+    const auto flag = [&](const char* parameter) { numbers[parameter] = random.chance(0.5) ? 1 : 0; };
+    const auto falloff = [&](double least_slope, double most_start) {
+        numbers["mar_slope"] = least_slope * std::pow(200 / least_slope, random.uniform());
+        numbers["mar_start"] = random.chance(0.3) ? 0 : random.uniform(0, most_start);
+    };
+    if (name == "kfr") {
+        numbers["sigma"] = std::exp2(random.uniform(0, 5));
+        numbers["alpha"] = std::exp2(random.uniform(-4, 4));
+        numbers["inset"] = random.chance(0.5) ? 0 : random.uniform(0, 0.9);
+        flag("as_printed");
+    } else if (name == "rings") {
+        falloff(0.5, 0.7);
+        flag("adaptive");
+        numbers["detail"] = random.uniform();
+    } else if (name == "log_polar" || name == "rmfr" || name == "log_rectilinear") {
+        numbers["sigma"] = std::exp2(random.uniform(0.1, 5));
+        if (name == "rmfr" && random.chance(0.5)) numbers["focus"] = random.uniform(0, 10);
+    } else if (name == "f3d") {
+        numbers["fov_deg"] = random.uniform(1, 170);
+        numbers["mar_slope"] = std::pow(10, random.uniform(-3, 0));
+        numbers["mar_start"] = std::pow(10, random.uniform(-3, 0));
+    } else if (name == "quad_views" || name == "swafford_resolution") {
+        numbers["density"] = random.uniform(0.02, 1);
+        numbers["blend"] = random.uniform(0.01, 1);
+        for (const char* side : {"focus_width", "focus_height"})
+            if (name == "quad_views") numbers[side] = random.uniform(0.01, 1);
+        if (name == "swafford_resolution") numbers["radius"] = random.uniform(0.01, 2);
+    } else if (name == "swafford_occlusion" || name == "swafford_steps") {
+        falloff(0.1, 1);
+        numbers["least"] = random.uniform(0.05, 1);
+    } else if (name != "full") {
+        falloff(0.1, 1);
+        if (name == "mrs") numbers["detail"] = random.uniform();
+        if (name != "ais") flag("interpolate");
+    }
+    return setting;
+}
+
 // White through every method stays white: a pixel that is no number, or that no sample reaches, would be
 // black.
 TEST(Numerics, white_stays_white_through_every_method_wherever_the_gaze) {
     Gpu gpu({.validation = true});
     const double nan = std::nan("");
-    for (const SizePx size : {SizePx{48, 32}, SizePx{1, 1}}) {
+    for (const SizePx size : {SizePx{48, 32}, SizePx{7, 29}, SizePx{1, 1}}) {
         Image white{size, {}};
         white.rgba.assign(static_cast<std::size_t>(size.width * size.height) * 4, 255);
         for (const MethodName& method : method_names()) {
             PictureMethod picture(gpu, white, method.name);
             Random random(17);
-            for (int i = 0; i < (size.width > 1 ? 7 : 2); ++i) {
+            for (int i = 0; i < (size.width > 1 ? 12 : 4); ++i) {
                 RenderMethod setting{method.name, {}, {}};
-                if (method.name == "kfr" && i > 0) {
-                    setting.numbers["sigma"] = std::exp2(random.uniform(0, 5));
-                    setting.numbers["alpha"] = std::exp2(random.uniform(-4, 4));
-                    setting.numbers["as_printed"] = random.chance(0.5) ? 1 : 0;
-                }
+                if (i > 0) setting = random_setting(method.name, random);
+                check(setting);
+                Jitter jitter;
+                if (i % 2 == 1)
+                    jitter = {static_cast<float>(random.uniform(-0.5, 0.5)),
+                              static_cast<float>(random.uniform(-0.5, 0.5))};
                 PointPx gaze{random.uniform(-0.3, 1.3) * size.width, random.uniform(-0.3, 1.3) * size.height};
                 if (i == 0) gaze = {nan, 3};
                 if (i == 1) gaze = {0, 0};
                 if (i == 2) gaze = {1e6, -1e6};
                 if (i == 3) gaze = {size.width / 2 + 0.5, size.height / 2 + 0.5};
-                const Image drawn = picture.draw(setting, gaze);
+                const Image drawn = picture.draw(setting, gaze, jitter);
                 const std::uint8_t darkest = *std::min_element(drawn.rgba.begin(), drawn.rgba.end());
                 EXPECT_GE(darkest, 254) << method.name << ' ' << size.width << " x " << size.height
                                         << ", gaze " << gaze.x << ", " << gaze.y;

@@ -144,7 +144,7 @@ TEST(SampleGrid, RingsLieAsFarApartAsTheSpacingAsksFor) {
 
 TEST(SampleGrid, RingsOfAPlanHoldOneSampleForEachSpacingAround) {
     const GridPlan plan =
-        planned(plan_rings, {2560, 1440}, {1280, 720}, {{"mar_slope", 14.08}, {"mar_start", 60.0 / 2560}});
+        planned(plan_rings, {2560, 1440}, {1280, 720}, {{"mar_slope", 7.92}, {"mar_start", 60.0 / 1440}});
     ASSERT_EQ(static_cast<float>(plan.samples_of_row.size()), plan.grid.rings);
     EXPECT_GE(shared::radius_of_ring(plan.grid.slope, plan.grid.start, plan.grid.rings - 1),
               std::hypot(2560, 1440));
