@@ -131,11 +131,22 @@ SHARED_FUNCTION vec2 screen_from_buffer(KernelMap map, vec2 position) {
     return vec2(map.gaze.x + r * direction.x, map.gaze.y + r * direction.y);
 }
 
+// Distance between neighbouring columns at buffer column position u, where the radius is given.
+SHARED_FUNCTION float radial_spacing(KernelMap map, float u, float radius) {
+    // The derivative of radius_of_column(), where it comes almost for nothing.
+    if (map.kernel == kKernelLinearMar)
+        return (1.0f / map.mar_slope + radius - map.mar_start) * map.alpha / map.buffer_size.x;
+    if (map.kernel == kKernelPower && map.as_printed == 0u) {
+        float log_radius = map.log_max_radius * inverse_kernel(map, clamp(u / map.buffer_size.x, 0.0f, 1.0f));
+        return radius * log_radius / (map.alpha * max(u, 0.5f));
+    }
+    return radius_of_column(map, u + 0.5f) - radius_of_column(map, u - 0.5f);
+}
+
 // Distance between neighbouring samples at a buffer position, in pixels: (radial, tangential).
 SHARED_FUNCTION vec2 sample_spacing(KernelMap map, vec2 position) {
-    float low = radius_of_column(map, position.x - 0.5f);
-    float high = radius_of_column(map, position.x + 0.5f);
-    return vec2(high - low, radius_of_column(map, position.x) * (2.0f * kMapPi) / map.buffer_size.y);
+    float radius = radius_of_column(map, position.x);
+    return vec2(radial_spacing(map, position.x, radius), radius * (2.0f * kMapPi) / map.buffer_size.y);
 }
 
 SHARED_END
