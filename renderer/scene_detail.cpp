@@ -6,11 +6,16 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cassert>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <span>
+#include <thread>
 #include <unordered_map>
+
+#include "renderer/triangle_tree.h"
 
 namespace parafovea {
 namespace {
@@ -22,6 +27,8 @@ constexpr std::size_t kFewestTriangles = 48;
 constexpr double kWorthwhile = 0.8;
 // The first level's error as a share of the piece's radius, and how errors grow from level to level.
 constexpr float kFirstError = 1.0f / 1024, kErrorGrowth = 1.7f, kLargestError = 0.25f;
+// A piece that is not simpler at this error is left as it is.
+constexpr float kHopelessError = 1.0f / 64;
 
 using Triangle = std::array<std::uint32_t, 3>;
 
@@ -40,8 +47,12 @@ std::vector<glm::vec3> closed_places(const Scene& scene, const SceneMesh& mesh) 
     const float step = std::exp2(std::floor(std::log2(extent)) - 19);
     std::vector<glm::vec3> places;
     places.reserve(mesh.vertex_count);
-    for (std::uint32_t v = 0; v < mesh.vertex_count; ++v)
-        places.push_back(glm::round(scene.vertices[mesh.first_vertex + v].position / step) * step + 0.0f);
+    for (std::uint32_t v = 0; v < mesh.vertex_count; ++v) {
+        glm::vec3 place = glm::round(scene.vertices[mesh.first_vertex + v].position / step) * step + 0.0f;
+        // Sums of what lies beyond any scene must not upset the sorting below.
+        for (int axis = 0; axis < 3; ++axis) place[axis] = std::abs(place[axis]) < 1e15f ? place[axis] : 0.0f;
+        places.push_back(place);
+    }
     return places;
 }
 
@@ -127,27 +138,6 @@ std::vector<std::vector<std::uint32_t>> grouped(const ConnectedMesh& mesh) {
     return groups;
 }
 
-float squared_distance(glm::vec3 p, glm::vec3 a, glm::vec3 b) {
-    const glm::vec3 along = b - a;
-    const float length = glm::dot(along, along);
-    const float t = length > 0 ? std::clamp(glm::dot(p - a, along) / length, 0.0f, 1.0f) : 0.0f;
-    const glm::vec3 off = p - (a + t * along);
-    return glm::dot(off, off);
-}
-
-float squared_distance(glm::vec3 p, glm::vec3 a, glm::vec3 b, glm::vec3 c) {
-    const glm::vec3 n = glm::cross(b - a, c - a);
-    const float area = glm::dot(n, n);
-    // Above the triangle its plane is nearest, elsewhere one of its edges.
-    if (area > 0 && glm::dot(glm::cross(b - a, p - a), n) >= 0 &&
-        glm::dot(glm::cross(c - b, p - b), n) >= 0 && glm::dot(glm::cross(a - c, p - c), n) >= 0) {
-        const float height = glm::dot(p - a, n);
-        return height * height / area;
-    }
-    return std::min(squared_distance(p, a, b),
-                    std::min(squared_distance(p, b, c), squared_distance(p, c, a)));
-}
-
 // One piece while it is simplified: its own vertices, numbered from 0.
 struct WorkingPiece {
     std::vector<glm::vec3> places;
@@ -175,28 +165,21 @@ WorkingPiece working_piece(const ConnectedMesh& mesh, std::span<const std::uint3
 
 // The largest distance of a vertex from the triangles that are left of its part; infinite where none is left.
 float deviation(const WorkingPiece& piece, std::span<const std::uint32_t> left) {
-    std::unordered_map<std::uint32_t, std::vector<std::uint32_t>> triangles_of_part;
+    std::unordered_map<std::uint32_t, std::vector<Triangle>> triangles_of_part;
     std::vector<bool> kept(piece.places.size(), false);
-    for (std::uint32_t i = 0; i < left.size(); i += 3) {
-        triangles_of_part[piece.part[left[i]]].push_back(i);
-        for (std::uint32_t k = 0; k < 3; ++k) kept[left[i + k]] = true;
+    for (std::size_t i = 0; i < left.size(); i += 3) {
+        triangles_of_part[piece.part[left[i]]].push_back({left[i], left[i + 1], left[i + 2]});
+        for (std::size_t k = 0; k < 3; ++k) kept[left[i + k]] = true;
     }
+    std::unordered_map<std::uint32_t, TriangleTree> trees;
+    for (auto& [part, triangles] : triangles_of_part)
+        trees.try_emplace(part, piece.places, std::move(triangles));
     float largest = 0;
-    std::size_t last = 0;  // neighbours are near the same triangle, most often
     for (std::size_t v = 0; v < piece.places.size(); ++v) {
         if (kept[v]) continue;
-        const std::vector<std::uint32_t>& candidates = triangles_of_part[piece.part[v]];
-        float nearest = 1e30f;
-        for (std::size_t n = 0; n < candidates.size() && nearest > largest; ++n) {
-            const std::size_t at = (last + n) % candidates.size();
-            const std::uint32_t i = candidates[at];
-            const float here = squared_distance(piece.places[v], piece.places[left[i]],
-                                                piece.places[left[i + 1]], piece.places[left[i + 2]]);
-            if (here >= nearest) continue;
-            nearest = here;
-            if (nearest <= largest) last = at;
-        }
-        largest = std::max(largest, nearest);
+        const auto tree = trees.find(piece.part[v]);
+        if (tree == trees.end()) return std::numeric_limits<float>::infinity();
+        largest = std::max(largest, tree->second.squared_distance(piece.places[v], largest));
     }
     return std::sqrt(largest);
 }
@@ -221,20 +204,24 @@ std::vector<SimplerLevel> simpler_levels(const WorkingPiece& piece, float radius
     const auto worthwhile = [](std::size_t fewer, std::size_t than) {
         return static_cast<double>(fewer) <= kWorthwhile * static_cast<double>(than);
     };
-    // Leaves and the like, that nothing makes simpler.
-    if (!worthwhile(simplified(piece, piece.indices, kLargestError * radius).size(), piece.indices.size()))
-        return levels;
     std::size_t last_count = piece.indices.size();
     for (float error = kFirstError; error <= kLargestError; error *= kErrorGrowth) {
         const std::vector<std::uint32_t>& from = levels.empty() ? piece.indices : levels.back().indices;
         SimplerLevel level{simplified(piece, from, error * radius), 0};
-        if (level.indices.empty() || !worthwhile(level.indices.size(), last_count)) continue;
+        const bool fewer = !level.indices.empty() && worthwhile(level.indices.size(), last_count);
+        // Leaves and the like, that nothing makes simpler.
+        if (!fewer && levels.empty() && error > kHopelessError) break;
+        if (!fewer) continue;
         level.error_m = deviation(piece, level.indices);
         if (level.error_m > kLargestError * radius) break;
         if (!levels.empty() && level.error_m <= levels.back().error_m) levels.pop_back();
         last_count = level.indices.size();
         levels.push_back(std::move(level));
         if (last_count / 3 < kFewestTriangles / 2) break;
+    }
+    for (SimplerLevel& level : levels) {
+        meshopt_optimizeVertexCache(level.indices.data(), level.indices.data(), level.indices.size(),
+                                    piece.places.size());
     }
     return levels;
 }
@@ -243,13 +230,13 @@ std::vector<SimplerLevel> simpler_levels(const WorkingPiece& piece, float radius
 
 SceneDetail make_detail(const Scene& scene, bool simplify) {
     SceneDetail detail;
-    detail.pieces.resize(scene.meshes.size());
-    for (std::size_t m = 0; m < scene.meshes.size(); ++m) {
-        const SceneMesh& mesh = scene.meshes[m];
+    // Lay out full detail.
+    std::vector<WorkingPiece> working;
+    for (const SceneMesh& mesh : scene.meshes) {
         const ConnectedMesh whole = connected(scene, mesh);
-        const auto groups = grouped(whole);
         detail.first_index.push_back(static_cast<std::uint32_t>(detail.indices.size()));
-        for (const auto& group : groups) {
+        std::vector<MeshPiece>& pieces = detail.pieces.emplace_back();
+        for (const auto& group : grouped(whole)) {
             MeshPiece piece;
             piece.levels.push_back({static_cast<std::uint32_t>(detail.indices.size()),
                                     static_cast<std::uint32_t>(3 * group.size()), 0});
@@ -259,18 +246,31 @@ SceneDetail make_detail(const Scene& scene, bool simplify) {
                     detail.indices.push_back(v);
                 }
             }
-            detail.pieces[m].push_back(std::move(piece));
+            pieces.push_back(std::move(piece));
+            if (simplify) working.push_back(working_piece(whole, group));
         }
-        for (std::size_t g = 0; simplify && g < groups.size(); ++g) {
-            MeshPiece& piece = detail.pieces[m][g];
-            const WorkingPiece working = working_piece(whole, groups[g]);
-            for (SimplerLevel& level : simpler_levels(working, piece.bounds.radius())) {
-                meshopt_optimizeVertexCache(level.indices.data(), level.indices.data(), level.indices.size(),
-                                            working.places.size());
-                piece.levels.push_back({static_cast<std::uint32_t>(detail.indices.size()),
-                                        static_cast<std::uint32_t>(level.indices.size()), level.error_m});
-                for (std::uint32_t v : level.indices) detail.indices.push_back(working.mesh_vertex[v]);
-            }
+    }
+    if (!simplify) return detail;
+
+    // Simplify, the pieces by turns on all processors.
+    std::vector<MeshPiece*> pieces;
+    for (auto& of_mesh : detail.pieces)
+        for (MeshPiece& piece : of_mesh) pieces.push_back(&piece);
+    std::vector<std::vector<SimplerLevel>> levels(pieces.size());
+    std::atomic<std::size_t> next = 0;
+    const auto take_turns = [&] {
+        for (std::size_t i = next++; i < pieces.size(); i = next++)
+            levels[i] = simpler_levels(working[i], pieces[i]->bounds.radius());
+    };
+    std::vector<std::jthread> others(std::max(1u, std::thread::hardware_concurrency()) - 1);
+    for (std::jthread& other : others) other = std::jthread(take_turns);
+    take_turns();
+    others.clear();
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+        for (const SimplerLevel& level : levels[i]) {
+            pieces[i]->levels.push_back({static_cast<std::uint32_t>(detail.indices.size()),
+                                         static_cast<std::uint32_t>(level.indices.size()), level.error_m});
+            for (std::uint32_t v : level.indices) detail.indices.push_back(working[i].mesh_vertex[v]);
         }
     }
     return detail;
