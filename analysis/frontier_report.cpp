@@ -42,6 +42,15 @@ void for_each_anchored(const FrontierReport& report, Write&& write) {
         if (const TradeoffRow* anchor = anchor_row(group, report.anchor)) write(group, *anchor);
 }
 
+// What stands in a report that has nothing to compare with; empty otherwise.
+std::string missing_anchor(const FrontierReport& report) {
+    bool found = false;
+    for_each_anchored(report, [&](const std::vector<TradeoffRow>&, const TradeoffRow&) { found = true; });
+    return found ? ""
+                 : "Nothing to compare with: " + report.anchor.family + " (" + report.anchor.setting +
+                       ") was not measured; name it among the methods, or leave --methods out.\n\n";
+}
+
 std::string choice_markdown(const FamilyChoice& choice, const TradeoffRow& anchor, bool interpolated) {
     std::string line = "| " + choice.family + " | ";
     if (!choice.row) {
@@ -143,7 +152,7 @@ std::string equal_quality_markdown(const FrontierReport& report) {
         report.anchor.family + " (" + report.anchor.setting +
         "), by shaded samples. Last column: its samples where the method's curve crosses that "
         "JOD, interpolated between two measured settings, over published KFR's.\n\n" +
-        origin(report);
+        origin(report) + missing_anchor(report);
     for_each_anchored(report, [&](const std::vector<TradeoffRow>& group, const TradeoffRow& anchor) {
         for (const Quality quality : {Quality::full_resolution, Quality::super_sampled}) {
             text += "## " + group_title(anchor) + "\n\nJOD at least " +
@@ -163,7 +172,8 @@ std::string equal_cost_markdown(const FrontierReport& report) {
     std::string text =
         "# At equal cost\n\nThe best measured setting of each method (JOD against full "
         "resolution) that costs at most what " +
-        report.anchor.family + " (" + report.anchor.setting + ") costs.\n\n" + origin(report);
+        report.anchor.family + " (" + report.anchor.setting + ") costs.\n\n" + origin(report) +
+        missing_anchor(report);
     for_each_anchored(report, [&](const std::vector<TradeoffRow>& group, const TradeoffRow& anchor) {
         for (const Cost cost : {Cost::samples, Cost::time}) {
             text +=

@@ -223,7 +223,7 @@ std::vector<TradeoffMethod> tradeoff_methods_of(const std::vector<std::string>& 
 
 TradeoffMethod parse_tradeoff_method(const std::string& text) {
     std::istringstream words(text);
-    TradeoffMethod method;
+    TradeoffMethod method{"", {"", {}, {}}};
     words >> method.method.name;
     for (std::string word; words >> word;) add_setting("--setting", word, method.method);
     check(method.method);

@@ -221,6 +221,17 @@ TEST(FrontierReport, WritesTablesFigureAndRecommendation) {
         << equal_quality_markdown(report);
 }
 
+TEST(FrontierReport, SaysSoWhenThereIsNothingToCompareWith) {
+    FrontierReport report{example(), kAnchor, 0.8, "a test", "a command"};
+    EXPECT_EQ(equal_quality_markdown(report).find("Nothing to compare with"), std::string::npos);
+    report.anchor.setting = "sigma=3";
+    for (const std::string& text : {equal_quality_markdown(report), equal_cost_markdown(report)})
+        EXPECT_NE(
+            text.find("Nothing to compare with: " + report.anchor.family + " (sigma=3) was not measured"),
+            std::string::npos)
+            << text;
+}
+
 TEST(FrontierReport, SaysSoWhenEverySettingLosesSomethingVisible) {
     FrontierReport report{example(), kAnchor, 0.95, "a test", "a command"};
     EXPECT_NE(
