@@ -206,6 +206,19 @@ TEST(TradeoffViews, AGazePathHoldsASaccadeAndACameraPathMoves) {
     EXPECT_EQ(still.front().gaze, (PointPx{16, 12}));
 }
 
+TEST(TradeoffPlan, TakesASingleSettingByItsWords) {
+    const TradeoffMethod rings = parse_tradeoff_method("rings mar_slope=7 mar_start=0.05");
+    EXPECT_EQ(rings.family, "rings");
+    EXPECT_EQ(rings.method, (RenderMethod{"rings", {{"mar_slope", 7}, {"mar_start", 0.05}}, {}}));
+    // A setting of the standard list stays in its family.
+    for (const TradeoffMethod& known : standard_tradeoff_methods())
+        EXPECT_EQ(parse_tradeoff_method(known.method.name + " " + setting_text(known.method)).family,
+                  known.family);
+    EXPECT_NE(message_of([] { parse_tradeoff_method("rings mar_slpe=7"); }).find("\"mar_slpe\""),
+              std::string::npos);
+    EXPECT_NE(message_of([] { parse_tradeoff_method(""); }).find("unknown method \"\""), std::string::npos);
+}
+
 TEST(TradeoffViews, ARecordingWithoutASaccadeIsRefused) {
     const TemporaryFolder folder;
     std::string csv =
