@@ -67,7 +67,7 @@ TEST(GazeFigure, draws_the_heat_map_with_its_axes_and_scale) {
     const std::string svg = text_of(folder.path() / "gaze.svg");
     for (const char* part : {"azimuth", "elevation", "samples per square degree", "simulated gaze", "<image"})
         EXPECT_NE(svg.find(part), std::string::npos) << part;
-    EXPECT_GE(png_width(folder.path() / "gaze.png"), static_cast<int>(14.0 / 2.54 * 300.0));
+    EXPECT_GE(png_width(folder.path() / "gaze.png"), static_cast<int>(14.0 / 2.54 * 200.0));
 }
 
 TEST(GazeFigure, of_no_sample_is_drawn_and_of_a_grid_not_filled_is_refused) {
