@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
 #include "devices/random.h"
 #include "renderer/shared/elementary.h"
@@ -117,17 +118,19 @@ RenderMethod random_setting(const std::string& name, Random& random) {
 }
 
 // White through every method stays white: a pixel that is no number, or that no sample reaches, would be
-// black.
+// black. PARAFOVEA_RANDOM_SETTINGS: how many settings of each method on each screen, instead of 12.
 TEST(Numerics, white_stays_white_through_every_method_wherever_the_gaze) {
     Gpu gpu({.validation = true});
     const double nan = std::nan("");
+    const char* wanted = std::getenv("PARAFOVEA_RANDOM_SETTINGS");
+    const int settings = wanted != nullptr ? std::atoi(wanted) : 12;
     for (const SizePx size : {SizePx{48, 32}, SizePx{7, 29}, SizePx{1, 1}}) {
         Image white{size, {}};
         white.rgba.assign(static_cast<std::size_t>(size.width * size.height) * 4, 255);
         for (const MethodName& method : method_names()) {
             PictureMethod picture(gpu, white, method.name);
             Random random(17);
-            for (int i = 0; i < (size.width > 1 ? 12 : 4); ++i) {
+            for (int i = 0; i < (size.width > 1 ? settings : 4); ++i) {
                 RenderMethod setting{method.name, {}, {}};
                 if (i > 0) setting = random_setting(method.name, random);
                 check(setting);
