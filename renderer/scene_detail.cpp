@@ -6,15 +6,14 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cassert>
 #include <cmath>
 #include <limits>
 #include <numeric>
 #include <span>
-#include <thread>
 #include <unordered_map>
 
+#include "renderer/all_processors.h"
 #include "renderer/triangle_tree.h"
 
 namespace parafovea {
@@ -252,20 +251,15 @@ SceneDetail make_detail(const Scene& scene, bool simplify) {
     }
     if (!simplify) return detail;
 
-    // Simplify, the pieces by turns on all processors.
+    // Simplify.
     std::vector<MeshPiece*> pieces;
     for (auto& of_mesh : detail.pieces)
         for (MeshPiece& piece : of_mesh) pieces.push_back(&piece);
     std::vector<std::vector<SimplerLevel>> levels(pieces.size());
-    std::atomic<std::size_t> next = 0;
-    const auto take_turns = [&] {
-        for (std::size_t i = next++; i < pieces.size(); i = next++)
-            levels[i] = simpler_levels(working[i], pieces[i]->bounds.radius());
-    };
-    std::vector<std::jthread> others(std::max(1u, std::thread::hardware_concurrency()) - 1);
-    for (std::jthread& other : others) other = std::jthread(take_turns);
-    take_turns();
-    others.clear();
+    on_all_processors(static_cast<int>(pieces.size()), [&](int i) {
+        const auto k = static_cast<std::size_t>(i);
+        levels[k] = simpler_levels(working[k], pieces[k]->bounds.radius());
+    });
     for (std::size_t i = 0; i < pieces.size(); ++i) {
         for (const SimplerLevel& level : levels[i]) {
             pieces[i]->levels.push_back({static_cast<std::uint32_t>(detail.indices.size()),

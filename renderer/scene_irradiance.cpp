@@ -3,10 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <numbers>
-#include <thread>
 
+#include "renderer/all_processors.h"
 #include "renderer/scene_lighting.h"
 #include "renderer/scene_voxels.h"
 
@@ -39,15 +38,6 @@ struct Seen {
     glm::vec3 normal{0};
 };
 
-void on_two_threads(int count, const std::function<void(int)>& work) {
-    const auto share = [&](int first) {
-        for (int i = first; i < count; i += 2) work(i);
-    };
-    std::thread other(share, 1);
-    share(0);
-    other.join();
-}
-
 class Baker {
   public:
     explicit Baker(const Scene& scene) : scene_(scene), voxels_(scene, kVoxelsAlong), rays_(directions()) {
@@ -64,7 +54,7 @@ class Baker {
     }
 
     IrradianceVolume bake() {
-        on_two_threads(count(), [&](int i) { look_around(i); });
+        on_all_processors(count(), [&](int i) { look_around(i); });
         gather(false);
         for (int bounce = 1; bounce < kBounces; ++bounce) gather(true);
         for (int axis = 0; axis < 3; ++axis) soften(axis);
@@ -153,7 +143,7 @@ class Baker {
     void gather(bool with_bounce) {
         std::vector<glm::vec4> next(volume_.texels.size(), glm::vec4(0));
         const auto probes = static_cast<std::size_t>(count());
-        on_two_threads(count(), [&](int probe) {
+        on_all_processors(count(), [&](int probe) {
             if (!good_[static_cast<std::size_t>(probe)]) return;
             glm::vec4 sums[3] = {glm::vec4(0), glm::vec4(0), glm::vec4(0)};
             for (int i = 0; i < kRays; ++i) {

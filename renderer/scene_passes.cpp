@@ -63,8 +63,7 @@ struct VisiblePiece {
 };
 
 // How many pixels at most a metre covers, anywhere in a box. A flat picture stretches what lies off its axis.
-float px_per_m(const Bounds& box, const CameraView& view, SizePx size) {
-    const glm::mat4 eye_from_world = glm::inverse(view.world_from_eye);
+float px_per_m(const Bounds& box, const CameraView& view, const glm::mat4& eye_from_world, SizePx size) {
     const float widest = std::max(view.tan_left, view.tan_right),
                 highest = std::max(view.tan_up, view.tan_down);
     float most_x = 0, most_y = 0;
@@ -351,6 +350,7 @@ void ScenePasses::Parts::make_targets() {
 // Lists the pieces in the view, the nearest first, and chooses their levels of detail.
 void ScenePasses::Parts::find_visible(const CameraView& view) {
     const glm::vec3 eye{view.world_from_eye[3]};
+    const glm::mat4 eye_from_world = glm::inverse(view.world_from_eye);
     in_view.clear();
     triangles_in_view = full_triangles_in_view = 0;
     for (std::size_t i = 0; i < resources->instances().size(); ++i) {
@@ -363,7 +363,7 @@ void ScenePasses::Parts::find_visible(const CameraView& view) {
             DetailLevel level = pieces[k].levels.front();
             full_triangles_in_view += level.index_count / 3;
             if (pieces[k].levels.size() > 1) {
-                const float px_per_error = px_per_m(bounds, view, size) * instance.stretch;
+                const float px_per_error = px_per_m(bounds, view, eye_from_world, size) * instance.stretch;
                 level = level_for(pieces[k], static_cast<float>(most_detail_error_px()) / px_per_error);
             }
             triangles_in_view += level.index_count / 3;

@@ -4,7 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <thread>
+
+#include "renderer/all_processors.h"
 
 namespace parafovea {
 namespace {
@@ -20,7 +21,9 @@ int floor_of(float x) {
     return x < static_cast<float>(truncated) ? truncated - 1 : truncated;
 }
 
-float blend(float a, float b, float t) { return a + (b - a) * t; }
+float blend(float a, float b, float t) {
+    return a + (b - a) * t;
+}
 
 float smooth(float t) {
     return t * t * t * (t * (6 * t - 15) + 10);
@@ -102,25 +105,20 @@ PaintedMaterial add_painted_material(Scene& scene, const std::string& name, int 
     SceneImage rough{name + " metal and roughness", size, size, std::vector<std::uint8_t>(4 * texels, 255)};
     std::vector<float> height(texels);
 
-    const auto paint_rows = [&](int first, int step) {
-        for (int y = first; y < size; y += step) {
-            for (int x = 0; x < size; ++x) {
-                const float scale = 1 / static_cast<float>(size);
-                const Paint p =
-                    paint((static_cast<float>(x) + 0.5f) * scale, (static_cast<float>(y) + 0.5f) * scale);
-                const std::size_t i = static_cast<std::size_t>(y) * static_cast<std::size_t>(size) +
-                                      static_cast<std::size_t>(x);
-                for (int c = 0; c < 3; ++c)
-                    color.rgba[4 * i + static_cast<std::size_t>(c)] = srgb_byte(p.color[c]);
-                rough.rgba[4 * i + 1] = byte_of(p.roughness);
-                rough.rgba[4 * i + 2] = byte_of(p.metallic);
-                height[i] = p.height_m;
-            }
+    on_all_processors(size, [&](int y) {
+        for (int x = 0; x < size; ++x) {
+            const float scale = 1 / static_cast<float>(size);
+            const Paint p =
+                paint((static_cast<float>(x) + 0.5f) * scale, (static_cast<float>(y) + 0.5f) * scale);
+            const std::size_t i =
+                static_cast<std::size_t>(y) * static_cast<std::size_t>(size) + static_cast<std::size_t>(x);
+            for (int c = 0; c < 3; ++c)
+                color.rgba[4 * i + static_cast<std::size_t>(c)] = srgb_byte(p.color[c]);
+            rough.rgba[4 * i + 1] = byte_of(p.roughness);
+            rough.rgba[4 * i + 2] = byte_of(p.metallic);
+            height[i] = p.height_m;
         }
-    };
-    std::thread odd(paint_rows, 1, 2);
-    paint_rows(0, 2);
-    odd.join();
+    });
 
     // Slopes of the height, u to the right and v downwards; the map's green points up.
     const float per_m = static_cast<float>(size) / (2 * extent_m);
