@@ -14,10 +14,8 @@ void main() {
     float stretch = length(ray);
     vec3 direction = ray / stretch;
     float court = meet_court(camera.eye.xyz, direction).distance;
-    vec2 span = solids_span(camera.eye.xyz, direction, 0.0);
-    span.y = min(span.y, court > 0.0 ? court : 1e9);
+    const float kSky = 1e9;
     float cone = length(camera.ray_per_px_x.xyz) * pixels_per_texel.x;
-    float solid = trace_solids(camera.eye.xyz, direction, span, max(0.35 * cone, 2e-4));
-    float distance = solid > 0.0 ? solid : court;
-    depth = distance > 0.0 ? camera.eye.w * stretch / distance : 0.0;
+    float distance = trace_solids(camera.eye.xyz, direction, court > 0.0 ? court : kSky, max(0.35 * cone, 2e-4));
+    depth = distance < kSky ? camera.eye.w * stretch / distance : 0.0;
 }

@@ -151,13 +151,24 @@ float arc_at(vec3 p) {
     return sqrt(max(dot(p, p) + 0.9025 - 1.9 * reach, 0.0)) - 0.17;
 }
 
+// The rows in which the solids stand. A ray is followed row by row: each asks only its own solids, and only where the ray
+// passes them. `row` is a constant wherever these are called.
+const int kFrontRow = 0;
+const int kMiddleRow = 1;
+const int kBackRow = 2;
+
+float row_field(int row, vec3 p) {
+    if (row == kFrontRow)
+        return min(min(min(sphere_at(p), torus_at(p)), min(rounded_box_at(p), capsule_at(p))), octahedron_at(p));
+    if (row == kMiddleRow)
+        return min(min(min(box_at(p), cylinder_at(p)), min(cone_at(p), hexagon_at(p))),
+                   min(link_at(p), ellipsoid_at(p)));
+    return min(min(min(frame_at(p), pyramid_at(p)), min(prism_at(p), round_cone_at(p))), arc_at(p));
+}
+
 // Distance to the nearest solid.
 float field(vec3 p) {
-    float front = min(min(min(sphere_at(p), torus_at(p)), min(rounded_box_at(p), capsule_at(p))), octahedron_at(p));
-    float middle = min(min(min(box_at(p), cylinder_at(p)), min(cone_at(p), hexagon_at(p))),
-                       min(link_at(p), ellipsoid_at(p)));
-    float back = min(min(min(frame_at(p), pyramid_at(p)), min(prism_at(p), round_cone_at(p))), arc_at(p));
-    return min(front, min(middle, back));
+    return min(row_field(kFrontRow, p), min(row_field(kMiddleRow, p), row_field(kBackRow, p)));
 }
 
 struct Solid {
@@ -203,25 +214,29 @@ void span_sphere(vec3 from, vec3 direction, vec3 centre, float radius, inout vec
     span.y = met ? max(span.y, s - b) : span.y;
 }
 
-// The stretch of a ray in which solids, swollen by `margin`, may be met: (first, last); first > last when none.
-vec2 solids_span(vec3 from, vec3 direction, float margin) {
+// The stretch of a ray in which solids of a row, swollen by `margin`, may be met: (first, last); first > last when none.
+vec2 row_span(int row, vec3 from, vec3 direction, float margin) {
     vec2 span = vec2(1e9, -1.0);
-    span_sphere(from, direction, kSphereAt, 0.76 + margin, span);
-    span_sphere(from, direction, kTorusAt, 0.70 + margin, span);
-    span_sphere(from, direction, kRoundedBoxAt, 0.95 + margin, span);
-    span_sphere(from, direction, kCapsuleAt, 0.86 + margin, span);
-    span_sphere(from, direction, kOctahedronAt, 0.91 + margin, span);
-    span_sphere(from, direction, kBoxAt, 1.13 + margin, span);
-    span_sphere(from, direction, kCylinderAt, 1.06 + margin, span);
-    span_sphere(from, direction, kConeAt + vec3(0.0, 0.79, 0.0), 1.12 + margin, span);
-    span_sphere(from, direction, kHexagonAt, 1.03 + margin, span);
-    span_sphere(from, direction, kLinkAt, 1.03 + margin, span);
-    span_sphere(from, direction, kEllipsoidAt, 0.96 + margin, span);
-    span_sphere(from, direction, kFrameAt, 1.60 + margin, span);
-    span_sphere(from, direction, kPyramidAt + vec3(0.0, 0.48, 0.0), 1.43 + margin, span);
-    span_sphere(from, direction, kPrismAt, 1.49 + margin, span);
-    span_sphere(from, direction, kRoundConeAt + vec3(0.0, 0.4, 0.0), 1.14 + margin, span);
-    span_sphere(from, direction, kArcAt + vec3(0.0, 0.55, 0.0), 1.13 + margin, span);
+    if (row == kFrontRow) {
+        span_sphere(from, direction, kSphereAt, 0.76 + margin, span);
+        span_sphere(from, direction, kTorusAt, 0.70 + margin, span);
+        span_sphere(from, direction, kRoundedBoxAt, 0.95 + margin, span);
+        span_sphere(from, direction, kCapsuleAt, 0.86 + margin, span);
+        span_sphere(from, direction, kOctahedronAt, 0.91 + margin, span);
+    } else if (row == kMiddleRow) {
+        span_sphere(from, direction, kBoxAt, 1.13 + margin, span);
+        span_sphere(from, direction, kCylinderAt, 1.06 + margin, span);
+        span_sphere(from, direction, kConeAt + vec3(0.0, 0.79, 0.0), 1.12 + margin, span);
+        span_sphere(from, direction, kHexagonAt, 1.03 + margin, span);
+        span_sphere(from, direction, kLinkAt, 1.03 + margin, span);
+        span_sphere(from, direction, kEllipsoidAt, 0.96 + margin, span);
+    } else {
+        span_sphere(from, direction, kFrameAt, 1.60 + margin, span);
+        span_sphere(from, direction, kPyramidAt + vec3(0.0, 0.48, 0.0), 1.43 + margin, span);
+        span_sphere(from, direction, kPrismAt, 1.49 + margin, span);
+        span_sphere(from, direction, kRoundConeAt + vec3(0.0, 0.4, 0.0), 1.14 + margin, span);
+        span_sphere(from, direction, kArcAt + vec3(0.0, 0.55, 0.0), 1.13 + margin, span);
+    }
     return span;
 }
 

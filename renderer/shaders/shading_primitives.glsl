@@ -14,42 +14,58 @@ layout(constant_id = kConstSamples) const uint kSamples = 1u;
 float occlusion_effort = 1.0;
 float step_effort = 1.0;
 
-// Sphere tracing (Hart 1996) from span.x to span.y; negative when nothing is met. Four steps a turn, because loops cost
+// Sphere tracing (Hart 1996) through a row; `last` when nothing is met before it. Four steps a turn, because loops cost
 // more than their bodies on some devices.
-float trace_solids(vec3 from, vec3 direction, vec2 span, float cone) {
+float trace_row(int row, vec3 from, vec3 direction, float last, float cone) {
+    vec2 span = row_span(row, from, direction, 0.0);
+    span.y = min(span.y, last);
     float t = span.x;
-    float found = -1.0;
-    // With fewer steps a ray is let off a little farther from the solid.
-    cone /= step_effort;
-    for (int turn = 0; turn < int(ceil(20.0 * step_effort)) && found < 0.0 && t < span.y; ++turn) {
-        float d0 = field(from + t * direction);
-        found = d0 < cone * t ? t : found;
+    float found = last;
+    for (int turn = 0; turn < int(ceil(20.0 * step_effort)) && found == last && t < span.y; ++turn) {
+        float d0 = row_field(row, from + t * direction);
+        found = d0 < cone * t ? min(t, found) : found;
         t += d0;
-        float d1 = field(from + t * direction);
-        found = found < 0.0 && d1 < cone * t ? t : found;
+        float d1 = row_field(row, from + t * direction);
+        found = found == last && d1 < cone * t ? t : found;
         t += d1;
-        float d2 = field(from + t * direction);
-        found = found < 0.0 && d2 < cone * t ? t : found;
+        float d2 = row_field(row, from + t * direction);
+        found = found == last && d2 < cone * t ? t : found;
         t += d2;
     }
     return found;
 }
 
-// Share of a sun of finite size that is seen past the solids (the nearest miss, seen as an angle).
-float sun_past_solids(vec3 from, vec3 to_sun) {
+// How far away the nearest solid is along a ray; `last` when none is nearer.
+float trace_solids(vec3 from, vec3 direction, float last, float cone) {
+    // With fewer steps a ray is let off a little farther from the solid.
+    cone /= step_effort;
+    last = trace_row(kFrontRow, from, direction, last, cone);
+    last = trace_row(kMiddleRow, from, direction, last, cone);
+    return trace_row(kBackRow, from, direction, last, cone);
+}
+
+// The nearest miss of a ray to the sun past the solids of a row, as a share of the sun's radius.
+float nearest_miss(int row, vec3 from, vec3 to_sun) {
     const float kSunTangent = 0.035;
-    vec2 span = solids_span(from, to_sun, 0.1);
+    vec2 span = row_span(row, from, to_sun, 0.1);
     float share = 1.0;
     float t = max(span.x, 0.02);
     vec2 step_m = vec2(0.015, 0.6) / step_effort;
     for (int turn = 0; turn < int(ceil(12.0 * step_effort)) && share > -1.0 && t < span.y; ++turn) {
-        float d0 = field(from + t * to_sun);
+        float d0 = row_field(row, from + t * to_sun);
         share = min(share, d0 / (kSunTangent * t));
         t += clamp(d0, step_m.x, step_m.y);
-        float d1 = field(from + t * to_sun);
+        float d1 = row_field(row, from + t * to_sun);
         share = min(share, d1 / (kSunTangent * t));
         t += clamp(d1, step_m.x, step_m.y);
     }
+    return share;
+}
+
+// Share of a sun of finite size that is seen past the solids (the nearest miss, seen as an angle).
+float sun_past_solids(vec3 from, vec3 to_sun) {
+    float share = min(nearest_miss(kFrontRow, from, to_sun),
+                      min(nearest_miss(kMiddleRow, from, to_sun), nearest_miss(kBackRow, from, to_sun)));
     share = clamp(share, -1.0, 1.0);
     return 0.25 * (1.0 + share) * (1.0 + share) * (2.0 - share);
 }
@@ -123,12 +139,11 @@ float court_openness(vec3 point) {
 
 vec3 radiance_along(vec3 from, vec3 direction, float cone) {
     CourtHit court = meet_court(from, direction);
-    vec2 span = solids_span(from, direction, 0.0);
-    span.y = min(span.y, court.distance > 0.0 ? court.distance : 1e9);
-    float solid_at_m = trace_solids(from, direction, span, max(0.35 * cone, 2e-4));
-    bool on_solid = solid_at_m > 0.0;
-    float distance = on_solid ? solid_at_m : court.distance;
-    if (distance < 0.0) return sky_with_sun(direction);
+    const float kSky = 1e9;
+    float court_at_m = court.distance > 0.0 ? court.distance : kSky;
+    float distance = trace_solids(from, direction, court_at_m, max(0.35 * cone, 2e-4));
+    bool on_solid = distance < court_at_m;
+    if (distance == kSky) return sky_with_sun(direction);
 
     vec3 point = from + distance * direction;
     vec3 normal = on_solid ? field_normal(point, max(5e-4, 0.25 * cone * distance)) : court.normal;
