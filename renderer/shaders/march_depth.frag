@@ -16,6 +16,6 @@ void main() {
     float court = meet_court(camera.eye.xyz, direction).distance;
     const float kSky = 1e9;
     float cone = length(camera.ray_per_px_x.xyz) * pixels_per_texel.x;
-    float distance = trace_solids(camera.eye.xyz, direction, court > 0.0 ? court : kSky, max(0.35 * cone, 2e-4));
+    float distance = trace_solids(camera.eye.xyz, direction, court > 0.0 ? court : kSky, max(0.35 * cone, 2e-4)).distance;
     depth = distance < kSky ? camera.eye.w * stretch / distance : 0.0;
 }

@@ -182,25 +182,29 @@ void take_nearer(inout Solid nearest, float distance, vec3 base_color, vec2 meta
     if (distance < nearest.distance) nearest = Solid(distance, base_color, metallic_roughness, pattern);
 }
 
-// The nearest solid and what it is made of.
-Solid solid_at(vec3 p) {
+// The nearest solid of a row and what it is made of.
+Solid solid_at(int row, vec3 p) {
     Solid s = Solid(1e9, vec3(0.5), vec2(0.0, 0.5), 0.0);
-    take_nearer(s, sphere_at(p), vec3(0.95, 0.93, 0.90), vec2(1.0, 0.12), 0.0);
-    take_nearer(s, torus_at(p), vec3(1.00, 0.71, 0.29), vec2(1.0, 0.25), 0.0);
-    take_nearer(s, rounded_box_at(p), vec3(0.75, 0.09, 0.07), vec2(0.0, 0.25), 1.0);
-    take_nearer(s, capsule_at(p), vec3(0.08, 0.35, 0.62), vec2(0.0, 0.15), 2.0);
-    take_nearer(s, octahedron_at(p), vec3(0.10, 0.55, 0.35), vec2(0.0, 0.12), 3.0);
-    take_nearer(s, box_at(p), vec3(0.55, 0.33, 0.16), vec2(0.0, 0.55), 2.0);
-    take_nearer(s, cylinder_at(p), vec3(0.85, 0.83, 0.78), vec2(0.0, 0.3), 3.0);
-    take_nearer(s, cone_at(p), vec3(0.90, 0.45, 0.08), vec2(0.0, 0.35), 2.0);
-    take_nearer(s, hexagon_at(p), vec3(0.30, 0.18, 0.52), vec2(0.0, 0.2), 1.0);
-    take_nearer(s, link_at(p), vec3(0.56, 0.57, 0.58), vec2(1.0, 0.32), 0.0);
-    take_nearer(s, ellipsoid_at(p), vec3(0.72, 0.72, 0.15), vec2(0.0, 0.22), 1.0);
-    take_nearer(s, frame_at(p), vec3(0.95, 0.64, 0.54), vec2(1.0, 0.3), 0.0);
-    take_nearer(s, pyramid_at(p), vec3(0.72, 0.56, 0.36), vec2(0.0, 0.7), 2.0);
-    take_nearer(s, prism_at(p), vec3(0.10, 0.48, 0.55), vec2(0.0, 0.2), 1.0);
-    take_nearer(s, round_cone_at(p), vec3(0.82, 0.80, 0.76), vec2(0.0, 0.25), 3.0);
-    take_nearer(s, arc_at(p), vec3(0.62, 0.10, 0.28), vec2(0.0, 0.2), 2.0);
+    if (row == kFrontRow) {
+        take_nearer(s, sphere_at(p), vec3(0.95, 0.93, 0.90), vec2(1.0, 0.12), 0.0);
+        take_nearer(s, torus_at(p), vec3(1.00, 0.71, 0.29), vec2(1.0, 0.25), 0.0);
+        take_nearer(s, rounded_box_at(p), vec3(0.75, 0.09, 0.07), vec2(0.0, 0.25), 1.0);
+        take_nearer(s, capsule_at(p), vec3(0.08, 0.35, 0.62), vec2(0.0, 0.15), 2.0);
+        take_nearer(s, octahedron_at(p), vec3(0.10, 0.55, 0.35), vec2(0.0, 0.12), 3.0);
+    } else if (row == kMiddleRow) {
+        take_nearer(s, box_at(p), vec3(0.55, 0.33, 0.16), vec2(0.0, 0.55), 2.0);
+        take_nearer(s, cylinder_at(p), vec3(0.85, 0.83, 0.78), vec2(0.0, 0.3), 3.0);
+        take_nearer(s, cone_at(p), vec3(0.90, 0.45, 0.08), vec2(0.0, 0.35), 2.0);
+        take_nearer(s, hexagon_at(p), vec3(0.30, 0.18, 0.52), vec2(0.0, 0.2), 1.0);
+        take_nearer(s, link_at(p), vec3(0.56, 0.57, 0.58), vec2(1.0, 0.32), 0.0);
+        take_nearer(s, ellipsoid_at(p), vec3(0.72, 0.72, 0.15), vec2(0.0, 0.22), 1.0);
+    } else {
+        take_nearer(s, frame_at(p), vec3(0.95, 0.64, 0.54), vec2(1.0, 0.3), 0.0);
+        take_nearer(s, pyramid_at(p), vec3(0.72, 0.56, 0.36), vec2(0.0, 0.7), 2.0);
+        take_nearer(s, prism_at(p), vec3(0.10, 0.48, 0.55), vec2(0.0, 0.2), 1.0);
+        take_nearer(s, round_cone_at(p), vec3(0.82, 0.80, 0.76), vec2(0.0, 0.25), 3.0);
+        take_nearer(s, arc_at(p), vec3(0.62, 0.10, 0.28), vec2(0.0, 0.2), 2.0);
+    }
     return s;
 }
 
@@ -220,7 +224,7 @@ vec2 row_span(int row, vec3 from, vec3 direction, float margin) {
     if (row == kFrontRow) {
         span_sphere(from, direction, kSphereAt, 0.76 + margin, span);
         span_sphere(from, direction, kTorusAt, 0.70 + margin, span);
-        span_sphere(from, direction, kRoundedBoxAt, 0.95 + margin, span);
+        span_sphere(from, direction, kRoundedBoxAt, 0.99 + margin, span);
         span_sphere(from, direction, kCapsuleAt, 0.86 + margin, span);
         span_sphere(from, direction, kOctahedronAt, 0.91 + margin, span);
     } else if (row == kMiddleRow) {

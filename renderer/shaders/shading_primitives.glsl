@@ -35,13 +35,19 @@ float trace_row(int row, vec3 from, vec3 direction, float last, float cone) {
     return found;
 }
 
-// How far away the nearest solid is along a ray; `last` when none is nearer.
-float trace_solids(vec3 from, vec3 direction, float last, float cone) {
+struct SolidHit {
+    float distance;  // `last` when nothing is nearer
+    int row;
+};
+
+// The nearest solid along a ray.
+SolidHit trace_solids(vec3 from, vec3 direction, float last, float cone) {
     // With fewer steps a ray is let off a little farther from the solid.
     cone /= step_effort;
-    last = trace_row(kFrontRow, from, direction, last, cone);
-    last = trace_row(kMiddleRow, from, direction, last, cone);
-    return trace_row(kBackRow, from, direction, last, cone);
+    float front = trace_row(kFrontRow, from, direction, last, cone);
+    float middle = trace_row(kMiddleRow, from, direction, front, cone);
+    float back = trace_row(kBackRow, from, direction, middle, cone);
+    return SolidHit(back, back < middle ? kBackRow : middle < front ? kMiddleRow : kFrontRow);
 }
 
 // The nearest miss of a ray to the sun past the solids of a row, as a share of the sun's radius.
@@ -90,10 +96,10 @@ float openness(vec3 point, vec3 normal) {
     return clamp(1.0 - 1.1 * blocked, 0.0, 1.0);
 }
 
-vec3 field_normal(vec3 p, float step_m) {
+vec3 row_normal(int row, vec3 p, float step_m) {
     const vec2 k = vec2(1.0, -1.0);
-    return normalize(k.xyy * field(p + k.xyy * step_m) + k.yyx * field(p + k.yyx * step_m) +
-                     k.yxy * field(p + k.yxy * step_m) + k.xxx * field(p + k.xxx * step_m));
+    return normalize(k.xyy * row_field(row, p + k.xyy * step_m) + k.yyx * row_field(row, p + k.yyx * step_m) +
+                     k.yxy * row_field(row, p + k.yxy * step_m) + k.xxx * row_field(row, p + k.xxx * step_m));
 }
 
 vec3 patterned(Solid solid, vec3 p, float footprint_m) {
@@ -141,20 +147,35 @@ vec3 radiance_along(vec3 from, vec3 direction, float cone) {
     CourtHit court = meet_court(from, direction);
     const float kSky = 1e9;
     float court_at_m = court.distance > 0.0 ? court.distance : kSky;
-    float distance = trace_solids(from, direction, court_at_m, max(0.35 * cone, 2e-4));
+    SolidHit hit = trace_solids(from, direction, court_at_m, max(0.35 * cone, 2e-4));
+    float distance = hit.distance;
     bool on_solid = distance < court_at_m;
     if (distance == kSky) return sky_with_sun(direction);
 
     vec3 point = from + distance * direction;
-    vec3 normal = on_solid ? field_normal(point, max(5e-4, 0.25 * cone * distance)) : court.normal;
     float footprint_m = cone * distance;
+    vec3 normal = court.normal;
+    Solid solid;
+    if (on_solid) {
+        float step_m = max(5e-4, 0.25 * footprint_m);
+        // Each branch knows its row.
+        if (hit.row == kFrontRow) {
+            normal = row_normal(kFrontRow, point, step_m);
+            solid = solid_at(kFrontRow, point);
+        } else if (hit.row == kMiddleRow) {
+            normal = row_normal(kMiddleRow, point, step_m);
+            solid = solid_at(kMiddleRow, point);
+        } else {
+            normal = row_normal(kBackRow, point, step_m);
+            solid = solid_at(kBackRow, point);
+        }
+    }
     vec3 to_sun = lighting.sun_direction.xyz;
     vec3 lifted = point + normal * 0.006;
     float sun = dot(normal, to_sun) > 0.0 ? sun_over_walls(lifted, to_sun) * sun_past_solids(lifted, to_sun) : 0.0;
     float open = openness(point, normal) * court_openness(point);
     if (!on_solid) return lit_court(court, point, direction, footprint_m, sun, open);
 
-    Solid solid = solid_at(point);
     Surface s;
     s.normal = normal;
     s.base_color = patterned(solid, point, footprint_m);
