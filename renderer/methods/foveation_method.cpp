@@ -15,7 +15,7 @@ std::span<const std::uint32_t> ShadingCode::of(ShadedThing thing) const {
     return {};
 }
 
-bool compute_can_write(const Gpu& gpu, VkFormat format) {
+bool shaders_can_write(const Gpu& gpu, VkFormat format) {
     VkFormatProperties properties;
     vkGetPhysicalDeviceFormatProperties(gpu.physical_device(), format, &properties);
     return gpu.features().shaderStorageImageWriteWithoutFormat &&

@@ -42,8 +42,8 @@ struct ShadingSource {
     bool in_compute = false;
 };
 
-// Whether the device's compute shaders can write images of a format.
-bool compute_can_write(const Gpu& gpu, VkFormat format);
+// Whether the device's shaders can write storage images of a format.
+bool shaders_can_write(const Gpu& gpu, VkFormat format);
 
 struct Jitter {
     float x = 0;

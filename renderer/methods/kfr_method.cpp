@@ -16,6 +16,9 @@
 #include "shader_code/pass_1_compute_meshes.h"
 #include "shader_code/pass_1_compute_picture.h"
 #include "shader_code/pass_1_compute_primitives.h"
+#include "shader_code/pass_1_listed_meshes.h"
+#include "shader_code/pass_1_listed_picture.h"
+#include "shader_code/pass_1_listed_primitives.h"
 #include "shader_code/pass_1_meshes.h"
 #include "shader_code/pass_1_picture.h"
 #include "shader_code/pass_1_primitives.h"
@@ -23,6 +26,7 @@
 #include "shader_code/pass_2_exact.h"
 #include "shader_code/post_filter.h"
 #include "shader_code/read_mask.h"
+#include "shader_code/texel_list_vert.h"
 
 namespace parafovea {
 namespace {
@@ -32,6 +36,8 @@ constexpr std::size_t kMostTargets = 8;
 
 const ShadingCode kComputeShading{shader_code::pass_1_compute_meshes, shader_code::pass_1_compute_primitives,
                                   shader_code::pass_1_compute_picture};
+const ShadingCode kListedShading{shader_code::pass_1_listed_meshes, shader_code::pass_1_listed_primitives,
+                                 shader_code::pass_1_listed_picture};
 const ShadingCode kShading{shader_code::pass_1_meshes, shader_code::pass_1_primitives,
                            shader_code::pass_1_picture};
 
@@ -77,7 +83,7 @@ KfrSetting kfr_setting(const RenderMethod& method) {
 }
 
 KfrMethod::KfrMethod(Gpu& gpu, const ShadingSource& source, const KfrFormats& formats)
-    : gpu_(gpu), source_(source), formats_(formats), layouts_(gpu, source.layout) {}
+    : gpu_(gpu), source_(source), formats_(formats), layouts_(gpu, source.layout), list_maker_(gpu) {}
 
 void KfrMethod::configure(const RenderMethod& method) {
     configure(kfr_setting(method));
@@ -102,7 +108,7 @@ void KfrMethod::prepare(SizePx screen, PointPx gaze) {
         // Another screen makes the old ones useless; many settings on one take turns.
         targets_.remove_if([&](const KfrTargets& targets) { return targets.screen != screen; });
         while (targets_.size() >= kMostTargets) targets_.pop_back();
-        targets_.emplace_front(gpu_, formats_, setting_, screen);
+        targets_.emplace_front(gpu_, formats_, list_maker_, setting_, screen);
     }
     targets_.front().set_gaze(usable_gaze(screen, gaze));
 }
@@ -141,10 +147,18 @@ KfrMethod::Pipelines KfrMethod::make_pipelines() const {
         masked_pass(kShading.of(source_.thing), layouts_.shading.get(), formats_.reduced, setting_.culling);
     shading.constants = source_.constants;
     shading.constants.insert(shading.constants.end(), map_constants.begin(), map_constants.end());
-    made.shading = formats_.in_compute
-                       ? make_compute_pipeline(gpu_, kComputeShading.of(source_.thing),
-                                               layouts_.compute_shading.get(), shading.constants)
-                       : make_graphics_pipeline(gpu_, shading);
+    if (formats_.in_compute) {
+        made.listed_shading = make_compute_pipeline(gpu_, kComputeShading.of(source_.thing),
+                                                    layouts_.listed_shading.get(), shading.constants);
+    } else {
+        made.shading = make_graphics_pipeline(gpu_, shading);
+        GraphicsPipelineDescription listed;
+        listed.vertex = shader_code::texel_list_vert;
+        listed.fragment = kListedShading.of(source_.thing);
+        listed.layout = layouts_.listed_shading.get();
+        listed.constants = shading.constants;
+        if (setting_.culling && formats_.lists) made.listed_shading = make_graphics_pipeline(gpu_, listed);
+    }
     if (setting_.internal_filter) {
         made.filter =
             make_graphics_pipeline(gpu_, masked_pass(shader_code::internal_filter, layouts_.filter.get(),
@@ -171,10 +185,8 @@ void KfrMethod::record(const MethodFrame& frame) {
     KfrTargets& t = targets_.front();
     frame.timer->start(frame.commands, "pass_1");
     if (t.mask && (t.mask_stale || t.mask_jitter != frame.jitter)) record_mask(frame);
-    if (formats_.in_compute)
-        record_compute_shading(frame);
-    else
-        record_shading(frame);
+    if (!formats_.in_compute) record_shading(frame);
+    if (t.listed) record_listed_shading(frame);
     if (setting_.internal_filter) record_internal_filter(frame.commands);
     frame.timer->stop(frame.commands);
 
@@ -222,7 +234,9 @@ void KfrMethod::record_mask(const MethodFrame& frame) {
         t.counts.end(commands, 0);
     }
     vkCmdEndRendering(commands);
-    image_barrier(commands, t.mask, kUseDepthTarget, kUseDepthTest);
+    image_barrier(commands, t.mask, kUseDepthTarget, kUseSampled);
+    if (t.listed) t.listed->record(commands, list_maker_);
+    image_barrier(commands, t.mask, kUseSampled, kUseDepthTest);
     t.mask_stale = false;
     t.mask_jitter = frame.jitter;
 }
@@ -235,6 +249,10 @@ void KfrMethod::record_shading(const MethodFrame& frame) {
     begin_rendering(frame.commands, t.reduced.extent(),
                     {ColorTarget{.view = t.reduced.view(), .clear = t.fresh}},
                     setting_.culling ? &depth : nullptr);
+    const VkExtent2D extent = t.reduced.extent();
+    const VkRect2D unlisted{{static_cast<std::int32_t>(t.listed_columns), 0},
+                            {extent.width - t.listed_columns, extent.height}};
+    vkCmdSetScissor(frame.commands, 0, 1, &unlisted);
     push_jitter(frame.commands, layouts_.shading.get(), frame.jitter);
     draw_fullscreen(frame.commands, now_->shading.get(), layouts_.shading.get(),
                     std::array{frame.shading_set, t.map_set.get()});
@@ -242,27 +260,33 @@ void KfrMethod::record_shading(const MethodFrame& frame) {
     image_barrier(frame.commands, t.reduced, kUseColorTarget, kUseSampled);
 }
 
-void KfrMethod::record_compute_shading(const MethodFrame& frame) {
-    constexpr std::uint32_t kGroup = 8;  // see pass_1.comp
+void KfrMethod::record_listed_shading(const MethodFrame& frame) {
     KfrTargets& t = targets_.front();
     const VkCommandBuffer commands = frame.commands;
-    if (t.fresh) {
+    if (formats_.in_compute && t.fresh) {
         image_barrier(commands, t.reduced, kUseNone, kUseTransferTarget);
         const VkClearColorValue black{};
         const VkImageSubresourceRange all{VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
         vkCmdClearColorImage(commands, t.reduced.get(), kUseTransferTarget.layout, &black, 1, &all);
+        image_barrier(commands, t.reduced, kUseTransferTarget, kUseSampled);
     }
-    image_barrier(commands, t.reduced, t.fresh ? kUseTransferTarget : kUseSampled, kUseComputeStorage);
-    image_barrier(commands, t.mask, kUseDepthTest, kUseSampled);
-    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, now_->shading.get());
-    push_jitter(commands, layouts_.compute_shading.get(), frame.jitter);
-    const std::array sets{frame.shading_set, t.map_set.get(), t.compute_set.get()};
-    vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, layouts_.compute_shading.get(), 0,
-                            sets.size(), sets.data(), 0, nullptr);
-    vkCmdDispatch(commands, (side(t.buffer.width) + kGroup - 1) / kGroup,
-                  (side(t.buffer.height) + kGroup - 1) / kGroup, 1);
-    image_barrier(commands, t.reduced, kUseComputeStorage, kUseSampled);
-    image_barrier(commands, t.mask, kUseSampled, kUseDepthTest);
+    const ResourceUse written = formats_.in_compute ? kUseComputeStorage : kUseFragmentStorage;
+    const VkPipelineBindPoint point =
+        formats_.in_compute ? VK_PIPELINE_BIND_POINT_COMPUTE : VK_PIPELINE_BIND_POINT_GRAPHICS;
+    image_barrier(commands, t.reduced, kUseSampled, written);
+    vkCmdBindPipeline(commands, point, now_->listed_shading.get());
+    push_jitter(commands, layouts_.listed_shading.get(), frame.jitter);
+    const std::array sets{frame.shading_set, t.map_set.get(), t.listed_set.get()};
+    vkCmdBindDescriptorSets(commands, point, layouts_.listed_shading.get(), 0, sets.size(), sets.data(), 0,
+                            nullptr);
+    if (formats_.in_compute) {
+        t.listed->dispatch(commands);
+    } else {
+        begin_rendering(commands, t.listed->extent(), {});
+        t.listed->draw(commands);
+        vkCmdEndRendering(commands);
+    }
+    image_barrier(commands, t.reduced, written, kUseSampled);
 }
 
 void KfrMethod::record_internal_filter(VkCommandBuffer commands) {

@@ -31,6 +31,7 @@ class KfrMethod : public FoveationMethod {
     struct Pipelines {
         OwnedPipeline mask;
         OwnedPipeline shading;
+        OwnedPipeline listed_shading;
         OwnedPipeline filter;
         OwnedPipeline resample;
         OwnedPipeline post;
@@ -43,7 +44,7 @@ class KfrMethod : public FoveationMethod {
     Pipelines make_pipelines() const;
     void record_mask(const MethodFrame& frame);
     void record_shading(const MethodFrame& frame);
-    void record_compute_shading(const MethodFrame& frame);
+    void record_listed_shading(const MethodFrame& frame);
     void record_internal_filter(VkCommandBuffer commands);
     void record_resampling(const MethodFrame& frame, const GpuImage& target);
 
@@ -52,6 +53,7 @@ class KfrMethod : public FoveationMethod {
     KfrFormats formats_;
     KfrSetting setting_;
     KfrLayouts layouts_;
+    TexelList::Maker list_maker_;
     std::map<PipelineKey, Pipelines> pipelines_;
     std::list<KfrTargets> targets_;  // the last used first, so that settings may take turns
     Pipelines* now_ = nullptr;       // what prepare() chose

@@ -2,6 +2,8 @@
 #include "renderer/methods/kfr_targets.h"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 namespace parafovea {
 namespace {
@@ -10,7 +12,7 @@ constexpr float kLargestRimPx = 8;
 
 constexpr Binding kMapBinding{0, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER};
 constexpr Binding kFirstImage{0, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER};
-constexpr Binding kWrittenImage{0, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE};
+constexpr Binding kReduced{2, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE};  // see pass_1_listed.glsl
 constexpr Binding kSecondImage{1, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER};
 
 GpuImage image_of(Gpu& gpu, SizePx size, VkFormat format, VkImageUsageFlags usage) {
@@ -22,7 +24,8 @@ GpuImage image_of(Gpu& gpu, SizePx size, VkFormat format, VkImageUsageFlags usag
 
 }  // namespace
 
-KfrTargets::KfrTargets(Gpu& gpu, const KfrFormats& formats, const KfrSetting& wanted, SizePx wanted_screen)
+KfrTargets::KfrTargets(Gpu& gpu, const KfrFormats& formats, const TexelList::Maker& list_maker,
+                       const KfrSetting& wanted, SizePx wanted_screen)
     : setting(wanted),
       screen(wanted_screen),
       buffer(buffer_size(wanted_screen, wanted.kernel)),
@@ -33,14 +36,14 @@ KfrTargets::KfrTargets(Gpu& gpu, const KfrFormats& formats, const KfrSetting& wa
                                  .address_u = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
                                  .address_v = VK_SAMPLER_ADDRESS_MODE_REPEAT})),
       map_set(gpu, {kMapBinding}),
-      compute_set(gpu, {kWrittenImage, kSecondImage}),
+      listed_set(gpu, {TexelList::kHeaderBinding, TexelList::kListBinding, kReduced}),
       reduced_set(gpu, {kFirstImage}),
       resample_set(gpu, {kMapBinding, kSecondImage}),
       post_set(gpu, {kMapBinding, kSecondImage}) {
     const VkImageUsageFlags drawn = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
     reduced = image_of(gpu, buffer, formats.reduced,
                        drawn | VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT |
-                           (formats.in_compute ? VK_IMAGE_USAGE_STORAGE_BIT : 0));
+                           (formats.lists ? VK_IMAGE_USAGE_STORAGE_BIT : 0));
     if (setting.internal_filter) {
         filtered = image_of(gpu, buffer, formats.reduced, drawn | VK_IMAGE_USAGE_TRANSFER_SRC_BIT);
     }
@@ -48,10 +51,11 @@ KfrTargets::KfrTargets(Gpu& gpu, const KfrFormats& formats, const KfrSetting& wa
         mask = image_of(gpu, buffer, kKfrMaskFormat,
                         VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT);
     }
-    if (formats.in_compute) {
-        compute_set.set_storage_image(0, reduced.view());
-        nearest = make_sampler(gpu, {.filter = VK_FILTER_NEAREST, .mipmap = VK_SAMPLER_MIPMAP_MODE_NEAREST});
-        compute_set.set_sampled_image(1, mask.view(), nearest.get());
+    listed_columns = formats.in_compute ? mask.extent().width : mask && formats.lists ? strewn_columns() : 0;
+    if (listed_columns > 0) {
+        listed.emplace(gpu, list_maker, mask, listed_columns);
+        listed->bind_to(listed_set);
+        listed_set.set_storage_image(kReduced.binding, reduced.view());
     }
     if (setting.post_filter) {
         screen_linear = image_of(gpu, screen, kKfrScreenFormat, drawn | VK_IMAGE_USAGE_SAMPLED_BIT);
@@ -62,6 +66,17 @@ KfrTargets::KfrTargets(Gpu& gpu, const KfrFormats& formats, const KfrSetting& wa
     resample_set.set_buffer(0, map);
     resample_set.set_sampled_image(1, reduced.view(), sampler.get());
     post_set.set_buffer(0, map);
+}
+
+// How many columns lie so close to the gaze that pixels leave many of their texels out: those whose rows are
+// less than kStrewnBelowPx apart. The gaze in the middle of the screen has the most.
+std::uint32_t KfrTargets::strewn_columns() const {
+    constexpr float kStrewnBelowPx = 0.75f;
+    const float radius = kStrewnBelowPx * static_cast<float>(buffer.height) / (2 * std::numbers::pi_v<float>);
+    if (setting.inset * shorter_side_px(screen) > radius) return 0;
+    const shared::KernelMap centred = make_kernel_map(screen, centre_of(screen), setting.kernel);
+    const float u = buffer_from_screen(centred, {centred.gaze.x + radius, centred.gaze.y}).x;
+    return std::min(static_cast<std::uint32_t>(std::ceil(u / 4)) * 4, mask.extent().width);
 }
 
 void KfrTargets::set_gaze(PointPx wanted) {
@@ -77,13 +92,13 @@ void KfrTargets::set_gaze(PointPx wanted) {
 
 KfrLayouts::KfrLayouts(Gpu& gpu, VkDescriptorSetLayout shading_layout)
     : map_set(gpu, {kMapBinding}),
-      compute_set(gpu, {kWrittenImage, kSecondImage}),
+      listed_set(gpu, {TexelList::kHeaderBinding, TexelList::kListBinding, kReduced}),
       reduced_set(gpu, {kFirstImage}),
       map_and_image_set(gpu, {kMapBinding, kSecondImage}),
       mask(make_pipeline_layout(gpu, {map_set.layout()}, sizeof(Jitter))),
       shading(make_pipeline_layout(gpu, {shading_layout, map_set.layout()}, sizeof(Jitter))),
-      compute_shading(make_pipeline_layout(gpu, {shading_layout, map_set.layout(), compute_set.layout()},
-                                           sizeof(Jitter))),
+      listed_shading(
+          make_pipeline_layout(gpu, {shading_layout, map_set.layout(), listed_set.layout()}, sizeof(Jitter))),
       filter(make_pipeline_layout(gpu, {reduced_set.layout()})),
       resample(make_pipeline_layout(gpu, {map_and_image_set.layout()}, sizeof(Jitter))) {}
 

@@ -2,9 +2,12 @@
 // mask.
 #pragma once
 
+#include <optional>
+
 #include "renderer/kernel_setting.h"
 #include "renderer/methods/foveation_method.h"
 #include "renderer/methods/sample_counter.h"
+#include "renderer/methods/texel_list.h"
 
 namespace parafovea {
 
@@ -24,7 +27,8 @@ struct KfrFormats {
     VkFormat target = VK_FORMAT_R8G8B8A8_SRGB;
     VkFormat reduced =
         VK_FORMAT_R16G16B16A16_UNORM;  // display-linear values in [0, 1]; finer than halves near 1
-    bool in_compute = false;           // Pass I runs in compute shaders
+    bool lists = false;                // shaders can write the reduced buffer as a storage image
+    bool in_compute = false;           // Pass I runs in compute shaders; needs `lists`
     bool exact_bilinear = false;  // Pass II interpolates with full float weights instead of the sampler's
 };
 
@@ -33,7 +37,8 @@ inline constexpr VkFormat kKfrScreenFormat = VK_FORMAT_R16G16B16A16_SFLOAT;
 
 class KfrTargets {
   public:
-    KfrTargets(Gpu& gpu, const KfrFormats& formats, const KfrSetting& setting, SizePx screen);
+    KfrTargets(Gpu& gpu, const KfrFormats& formats, const TexelList::Maker& list_maker,
+               const KfrSetting& setting, SizePx screen);
 
     bool serves(const KfrSetting& wanted, SizePx wanted_screen) const {
         return wanted == setting && wanted_screen == screen;
@@ -50,20 +55,23 @@ class KfrTargets {
 
     shared::KernelMap block{};  // what `map` holds
     GpuBuffer map;
-    GpuImage mask;           // depth 1 where a texel is needed, else 0; with culling or in compute shaders
+    GpuImage mask;  // depth 1 where a texel is needed, else 0; with culling or in compute shaders
+    std::uint32_t listed_columns = 0;  // whose needed texels are listed
+    std::optional<TexelList> listed;
     GpuImage reduced;        // what Pass I shades and Pass II reads
     GpuImage filtered;       // the internal filter's result, then copied to `reduced`
     GpuImage screen_linear;  // Pass II's result for the post filter
     SampleCounter counts;    // 0: texels needed, 1: pixels of the inset
     OwnedSampler sampler;
-    OwnedSampler nearest;        // for the mask; in compute shaders
     DescriptorSet map_set;       // 0: map
-    DescriptorSet compute_set;   // 0: reduced, 1: mask; in compute shaders
+    DescriptorSet listed_set;    // 0 and 1: listed, 2: reduced
     DescriptorSet reduced_set;   // 0: reduced
     DescriptorSet resample_set;  // 0: map, 1: reduced
     DescriptorSet post_set;      // 0: map, 1: screen_linear
 
   private:
+    std::uint32_t strewn_columns() const;
+
     bool has_gaze_ = false;
 };
 
@@ -72,12 +80,12 @@ struct KfrLayouts {
     KfrLayouts(Gpu& gpu, VkDescriptorSetLayout shading);
 
     DescriptorSet map_set;
-    DescriptorSet compute_set;
+    DescriptorSet listed_set;
     DescriptorSet reduced_set;
     DescriptorSet map_and_image_set;
     OwnedPipelineLayout mask;
     OwnedPipelineLayout shading;
-    OwnedPipelineLayout compute_shading;
+    OwnedPipelineLayout listed_shading;
     OwnedPipelineLayout filter;
     OwnedPipelineLayout resample;  // and post
 };

@@ -1,13 +1,11 @@
-// Pass I in compute shaders: the texels that the mask says are needed.
+// Pass I in compute shaders.
 #version 460
-#include "pass_1.glsl"
+#include "pass_1_listed.glsl"
 
-layout(local_size_x = 8, local_size_y = 8) in;
-layout(set = 2, binding = 0) uniform writeonly image2D reduced;
-layout(set = 2, binding = 1) uniform sampler2D needed;
+layout(local_size_x = kTexelsPerGroup) in;
 
 void main() {
-    ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
-    if (any(greaterThanEqual(texel, imageSize(reduced))) || texelFetch(needed, texel, 0).r == 0.0) return;
-    imageStore(reduced, texel, pass_1(vec2(texel) + 0.5));
+    uint group = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
+    uint index = group * kTexelsPerGroup + gl_LocalInvocationIndex;
+    if (index < list.count) shade_listed(index);
 }

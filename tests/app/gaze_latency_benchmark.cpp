@@ -51,7 +51,7 @@ void report(benchmark::State& state, const std::string& name, const std::vector<
 // What the frame loop does with samples, up to the kernel maps that the shaders read.
 class FoveatedEyes {
   public:
-    FoveatedEyes() : foveation_(tracked(), eyes_.view()), targets_(gpu_, {}, {}, kEyePicture) {}
+    FoveatedEyes() : foveation_(tracked(), eyes_.view()), targets_(gpu_, {}, list_maker_, {}, kEyePicture) {}
 
     // Chooses the foveation point, turns it into each eye's own, and writes the maps.
     void take(std::span<const GazeSample> samples) {
@@ -80,6 +80,7 @@ class FoveatedEyes {
     FoveationPoint foveation_;
     FoveationPoint::Choice choice_;
     Gpu gpu_;
+    TexelList::Maker list_maker_{gpu_};
     KfrTargets targets_;
 };
 

@@ -1,0 +1,121 @@
+// Makes the list of texels with three compute shaders.
+#include "renderer/methods/texel_list.h"
+
+#include <cstddef>
+#include <span>
+
+#include "renderer/shared/texel_list.h"
+#include "shader_code/texel_list.h"
+#include "shader_code/texel_list_rows.h"
+#include "shader_code/texel_list_words.h"
+
+namespace parafovea {
+namespace {
+
+constexpr std::uint32_t kRowsOfGroup = 64;  // see texel_list.comp
+
+constexpr ResourceUse kUseHeader{
+    VK_PIPELINE_STAGE_2_ALL_GRAPHICS_BIT | VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
+    VK_ACCESS_2_UNIFORM_READ_BIT | VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT, VK_IMAGE_LAYOUT_UNDEFINED};
+// Whatever it held is of no interest.
+constexpr ResourceUse kUseOldList{kUseSampled.stages, kUseSampled.accesses, VK_IMAGE_LAYOUT_UNDEFINED};
+
+// A row of the list's image holds a power of two; about as many as there are rows.
+std::uint32_t log2_row(std::uint64_t texels) {
+    std::uint32_t log2 = 2;
+    while ((std::uint64_t{1} << (2 * log2)) < texels) ++log2;
+    return log2;
+}
+
+GpuImage list_image(Gpu& gpu, std::uint64_t texels) {
+    const std::uint32_t width = 1u << log2_row(texels);
+    // Rows in twos; see pass_1_listed.frag.
+    const std::uint64_t pairs_of_rows = (texels + 2 * width - 1) / (2 * width);
+    return GpuImage(gpu, {.format = VK_FORMAT_R32_UINT,
+                          .width = width,
+                          .height = static_cast<std::uint32_t>(2 * pairs_of_rows),
+                          .usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT});
+}
+
+GpuBuffer storage(Gpu& gpu, std::size_t count) {
+    return GpuBuffer(gpu, count * sizeof(std::uint32_t), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
+                     BufferPlace::device);
+}
+
+DescriptorSet making_set(Gpu& gpu) {
+    return DescriptorSet(gpu, {{0, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},
+                               {1, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE},
+                               {2, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},
+                               {3, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},
+                               {4, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER}});
+}
+
+}  // namespace
+
+TexelList::Maker::Maker(Gpu& gpu)
+    : set(making_set(gpu)),
+      layout(make_pipeline_layout(gpu, {set.layout()})),
+      words(make_compute_pipeline(gpu, shader_code::texel_list_words, layout.get())),
+      rows(make_compute_pipeline(gpu, shader_code::texel_list_rows, layout.get())),
+      list(make_compute_pipeline(gpu, shader_code::texel_list, layout.get())),
+      nearest(make_sampler(gpu, {.filter = VK_FILTER_NEAREST, .mipmap = VK_SAMPLER_MIPMAP_MODE_NEAREST})) {}
+
+TexelList::TexelList(Gpu& gpu, const Maker& maker, const GpuImage& mask, std::uint32_t columns)
+    : height_(mask.extent().height),
+      words_of_row_((columns + shared::kTexelsPerWord - 1) / shared::kTexelsPerWord),
+      header_(gpu, sizeof(shared::TexelListHeader),
+              VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT |
+                  VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+              BufferPlace::device),
+      listed_(list_image(gpu, std::uint64_t{columns} * height_)),
+      words_(storage(gpu, std::size_t{words_of_row_} * height_)),
+      first_of_row_(storage(gpu, height_)),
+      nearest_(maker.nearest.get()),
+      set_(making_set(gpu)) {
+    shared::TexelListHeader header{};
+    header.groups_z = 1;
+    header.width = columns;
+    header.height = height_;
+    header.log2_row = log2_row(std::uint64_t{columns} * height_);
+    header.image_height = listed_.extent().height;
+    upload(gpu, header_, std::as_bytes(std::span(&header, 1)));
+    set_.set_buffer(0, header_);
+    set_.set_storage_image(1, listed_.view());
+    set_.set_buffer(2, words_);
+    set_.set_buffer(3, first_of_row_);
+    set_.set_sampled_image(4, mask.view(), nearest_);
+}
+
+void TexelList::bind_to(DescriptorSet& reading) const {
+    reading.set_buffer(kHeaderBinding.binding, header_);
+    reading.set_sampled_image(kListBinding.binding, listed_.view(), nearest_);
+}
+
+void TexelList::record(VkCommandBuffer commands, const Maker& maker) const {
+    const std::uint32_t groups = (height_ + kRowsOfGroup - 1) / kRowsOfGroup;
+    const VkDescriptorSet set = set_.get();
+    vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, maker.layout.get(), 0, 1, &set, 0,
+                            nullptr);
+    memory_barrier(commands, kUseHeader, kUseComputeStorage);
+    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, maker.words.get());
+    vkCmdDispatch(commands, groups, words_of_row_, 1);
+    memory_barrier(commands, kUseComputeStorage, kUseComputeStorage);
+    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, maker.rows.get());
+    vkCmdDispatch(commands, 1, 1, 1);
+    memory_barrier(commands, kUseComputeStorage, kUseComputeStorage);
+    image_barrier(commands, listed_, kUseOldList, kUseComputeStorage);
+    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, maker.list.get());
+    vkCmdDispatch(commands, groups, words_of_row_, 1);
+    memory_barrier(commands, kUseComputeStorage, kUseHeader);
+    image_barrier(commands, listed_, kUseComputeStorage, kUseSampled);
+}
+
+void TexelList::dispatch(VkCommandBuffer commands) const {
+    vkCmdDispatchIndirect(commands, header_.get(), offsetof(shared::TexelListHeader, groups_x));
+}
+
+void TexelList::draw(VkCommandBuffer commands) const {
+    vkCmdDraw(commands, 6, 1, 0, 0);
+}
+
+}  // namespace parafovea
