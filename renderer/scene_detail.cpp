@@ -26,8 +26,6 @@ constexpr std::size_t kFewestTriangles = 48;
 constexpr double kWorthwhile = 0.8;
 // The first level's error as a share of the piece's radius, and how errors grow from level to level.
 constexpr float kFirstError = 1.0f / 1024, kErrorGrowth = 1.7f, kLargestError = 0.25f;
-// A piece that is not simpler at this error is left as it is.
-constexpr float kHopelessError = 1.0f / 64;
 
 using Triangle = std::array<std::uint32_t, 3>;
 
@@ -91,18 +89,26 @@ ConnectedMesh connected(const Scene& scene, const SceneMesh& mesh) {
     return c;
 }
 
-// Parts in groups of about kPieceTriangles that lie near each other; of each group its triangles in the order
-// of the mesh.
+// Parts in groups of about kPieceTriangles that lie near each other; of each group its triangles, the parts
+// farthest out in the mesh first: seen from outside, these hide others, as a crown's outer leaves do.
 std::vector<std::vector<std::uint32_t>> grouped(const ConnectedMesh& mesh) {
     struct Part {
         Bounds bounds;
         std::vector<std::uint32_t> triangles;
+        float out = 0;  // squared, in half the mesh's size
     };
     std::vector<Part> parts(mesh.part_count);
     for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
         Part& part = parts[mesh.part_of[i]];
         part.triangles.push_back(i);
         for (std::uint32_t v : mesh.triangles[i]) part.bounds.add(mesh.places[v]);
+    }
+    Bounds whole;
+    for (const Part& part : parts) whole.add(part.bounds.centre());
+    const glm::vec3 reach = glm::max(0.5f * (whole.high - whole.low), glm::vec3(1e-20f));
+    for (Part& part : parts) {
+        const glm::vec3 out = (part.bounds.centre() - whole.centre()) / reach;
+        part.out = glm::dot(out, out);
     }
     std::vector<std::uint32_t> order(parts.size());
     std::iota(order.begin(), order.end(), 0u);
@@ -118,10 +124,12 @@ std::vector<std::vector<std::uint32_t>> grouped(const ConnectedMesh& mesh) {
             centres.add(parts[p].bounds.centre());
         }
         if (count <= kPieceTriangles || some.size() == 1) {
+            std::sort(some.begin(), some.end(), [&](std::uint32_t a, std::uint32_t b) {
+                return std::pair(-parts[a].out, a) < std::pair(-parts[b].out, b);
+            });
             std::vector<std::uint32_t> group;
             for (std::uint32_t p : some)
                 group.insert(group.end(), parts[p].triangles.begin(), parts[p].triangles.end());
-            std::sort(group.begin(), group.end());
             if (!group.empty()) groups.push_back(std::move(group));
             continue;
         }
@@ -208,8 +216,6 @@ std::vector<SimplerLevel> simpler_levels(const WorkingPiece& piece, float radius
         const std::vector<std::uint32_t>& from = levels.empty() ? piece.indices : levels.back().indices;
         SimplerLevel level{simplified(piece, from, error * radius), 0};
         const bool fewer = !level.indices.empty() && worthwhile(level.indices.size(), last_count);
-        // Leaves and the like, that nothing makes simpler.
-        if (!fewer && levels.empty() && error > kHopelessError) break;
         if (!fewer) continue;
         level.error_m = deviation(piece, level.indices);
         if (level.error_m > kLargestError * radius) break;

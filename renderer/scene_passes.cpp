@@ -54,6 +54,10 @@ float exposure_at(const IrradianceVolume& volume, glm::vec3 eye, const std::vect
     return std::clamp(kKey / std::exp(sum / weights), 0.05f, 60.0f);
 }
 
+bool is_same(const shared::Camera& a, const shared::Camera& b) {
+    return std::memcmp(&a, &b, sizeof a) == 0;
+}
+
 // A piece of an instance, in the level of detail in which it is drawn.
 struct VisiblePiece {
     float distance_m = 0;
@@ -104,6 +108,7 @@ struct ScenePasses::Parts {
     std::optional<LampShadows> lamp_shadows;
     bool shadow_drawn = false;
     std::optional<shared::Camera> drawn;  // the view that the targets hold
+    std::optional<shared::Camera> found;  // the view that in_view is of
     SizePx size;
     glm::mat4 clip_from_world{1};
     shared::Camera camera{};
@@ -138,6 +143,7 @@ struct ScenePasses::Parts {
     }
     void find_visible(const CameraView& view);
     void record_layer(VkCommandBuffer commands, bool blended_layer);
+    void record_layers(VkCommandBuffer commands);
 };
 
 void ScenePasses::Parts::build_meshes(const Scene& scene) {
@@ -367,9 +373,9 @@ void ScenePasses::Parts::find_visible(const CameraView& view) {
                 level = level_for(pieces[k], static_cast<float>(most_detail_error_px()) / px_per_error);
             }
             triangles_in_view += level.index_count / 3;
-            const glm::vec3 nearest_point = glm::clamp(eye, bounds.low, bounds.high);
-            in_view.push_back({glm::distance(eye, nearest_point) + 0.1f * bounds.radius(), i,
-                               level.first_index, level.index_count});
+            // By their centres: what is large and begins near, as a road, mostly lies behind what stands on
+            // it.
+            in_view.push_back({glm::distance(eye, bounds.centre()), i, level.first_index, level.index_count});
         }
     }
     std::sort(in_view.begin(), in_view.end(), [](const VisiblePiece& a, const VisiblePiece& b) {
@@ -387,12 +393,11 @@ void ScenePasses::Parts::find_visible(const CameraView& view) {
 
 void ScenePasses::Parts::record_layer(VkCommandBuffer commands, bool blended_layer) {
     const GpuImage& words = blended_layer ? blended : gbuffer;
-    const GpuImage& distance = blended_layer ? blended_depth : depth;
-    image_barrier(commands, words, kUseNone, kUseColorTarget);
-    image_barrier(commands, distance, kUseNone, kUseDepthTarget);
-    const DepthTarget depth_target{distance.view(), true, 0.0f, false};
-    // Cleared even where nothing is drawn: a surface at the border looks at its neighbours' normals.
-    begin_rendering(commands, words.extent(), {ColorTarget{words.view(), true, false, {}}}, &depth_target);
+    const DepthTarget depth_target{(blended_layer ? blended_depth : depth).view(), true, 0.0f, false};
+    // A surface at the border looks at its neighbours' normals, so that the G-buffer is cleared even where
+    // nothing is drawn. Blended words are read only where blended depth tells of them.
+    const ColorTarget words_target{words.view(), !blended_layer, blended_layer, {}};
+    begin_rendering(commands, words.extent(), {words_target}, &depth_target);
     resources->bind_geometry(commands);
     VkPipeline bound_pipeline = VK_NULL_HANDLE;
     int bound_material = -1;
@@ -418,8 +423,22 @@ void ScenePasses::Parts::record_layer(VkCommandBuffer commands, bool blended_lay
         vkCmdDrawIndexed(commands, piece.index_count, 1, piece.first_index, mesh.first_vertex, 0);
     }
     vkCmdEndRendering(commands);
-    image_barrier(commands, words, kUseColorTarget, kUseSampled);
-    image_barrier(commands, distance, kUseDepthTarget, kUseSampled);
+}
+
+// The blended layer, which is the smaller, comes first and nothing waits between the two: software devices
+// fill its tiles while the other's triangles are set up.
+void ScenePasses::Parts::record_layers(VkCommandBuffer commands) {
+    std::vector<const GpuImage*> words{&gbuffer}, distances{&depth};
+    if (build_blended) {
+        words.push_back(&blended);
+        distances.push_back(&blended_depth);
+    }
+    for (const GpuImage* image : words) image_barrier(commands, *image, kUseNone, kUseColorTarget);
+    for (const GpuImage* image : distances) image_barrier(commands, *image, kUseNone, kUseDepthTarget);
+    if (build_blended) record_layer(commands, true);
+    record_layer(commands, false);
+    for (const GpuImage* image : words) image_barrier(commands, *image, kUseColorTarget, kUseSampled);
+    for (const GpuImage* image : distances) image_barrier(commands, *image, kUseDepthTarget, kUseSampled);
 }
 
 ScenePasses::ScenePasses(Gpu& gpu, const Scene& scene, const ScenePassOptions& options)
@@ -458,7 +477,9 @@ void ScenePasses::set_view(SizePx size, const CameraView& view) {
     p.size = size;
     if (p.ray_marched) return;
     if (resized) p.make_targets();
+    if (p.found && is_same(*p.found, p.camera)) return;
     p.find_visible(view);
+    p.found = p.camera;
 }
 
 void ScenePasses::record(VkCommandBuffer commands, PassTimer* timer) {
@@ -479,13 +500,12 @@ void ScenePasses::record(VkCommandBuffer commands, PassTimer* timer) {
         p.shadow_drawn = true;
     }
     std::erase_if(p.left_out, [](const FeatureNote& note) { return note.name == kKept; });
-    if (p.options.keep_geometry && p.drawn && std::memcmp(&*p.drawn, &p.camera, sizeof p.camera) == 0) {
+    if (p.options.keep_geometry && p.drawn && is_same(*p.drawn, p.camera)) {
         p.left_out.push_back({kKept, "the view is that of the last frame"});
         return;
     }
     if (timer) timer->start(commands, "defer");
-    p.record_layer(commands, false);
-    if (p.build_blended) p.record_layer(commands, true);
+    p.record_layers(commands);
     if (timer) timer->stop(commands);
     p.drawn = p.camera;
 }

@@ -2,6 +2,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "../shared/scene_layout.h"
+#include "gbuffer_inputs.glsl"
 #include "surface_packing.glsl"
 
 layout(set = 0, binding = kBindMaterial, std140) uniform Material { MaterialBlock material; };
@@ -19,19 +20,14 @@ layout(constant_id = kConstMask) const uint kMask = 0u;
 layout(constant_id = kConstTextureTransforms) const uint kTextureTransforms = 0u;
 layout(constant_id = kConstBlendedLayer) const uint kBlendedLayer = 0u;
 
-layout(location = 0) in vec3 normal_in;
-layout(location = 1) in vec2 uv;
-#ifdef TANGENTS
-layout(location = 2) in vec4 tangent_in;
-#endif
 #ifdef COLORS
-layout(location = 3) in vec4 color;
+layout(location = 2) in vec4 color;
 #endif
 layout(location = 0) out uvec4 words;
 
 vec2 position_in(uint texture_index) {
-    if (kTextureTransforms == 0u) return uv;
-    vec3 at = vec3(uv, 1.0);
+    if (kTextureTransforms == 0u) return uv();
+    vec3 at = vec3(uv(), 1.0);
     return vec2(dot(material.transforms[2u * texture_index].xyz, at),
                 dot(material.transforms[2u * texture_index + 1u].xyz, at));
 }
@@ -52,11 +48,12 @@ void main() {
         roughness *= m.y;
     }
 
-    vec3 normal = normalize(normal_in);
+    vec3 normal = normalize(normal_u.xyz);
 #ifdef TANGENTS
-    vec3 tangent = tangent_in.xyz - normal * dot(normal, tangent_in.xyz);
-    tangent *= inversesqrt(max(dot(tangent, tangent), 1e-12));
-    vec3 bitangent = cross(normal, tangent) * tangent_in.w;
+    vec3 t = tangent().xyz;
+    t -= normal * dot(normal, t);
+    t *= inversesqrt(max(dot(t, t), 1e-12));
+    vec3 bitangent = cross(normal, t) * tangent().w;
     vec3 sampled = texture(normal_map, position_in(2u)).xyz * 2.0 - 1.0;
     // Averaging normals in the smaller levels shortened them: what was lost there is roughness (Toksvig 2005).
     float shortness = clamp(dot(sampled, sampled), 0.04, 1.0);
@@ -64,7 +61,7 @@ void main() {
     float variance = (1.0 - sqrt(shortness)) / sqrt(shortness);
     roughness = sqrt(sqrt(clamp(alpha * alpha + min(2.0 * variance, 0.3), 0.0, 1.0)));
     sampled.xy *= material.emissive.w;
-    normal = normalize(tangent * sampled.x + bitangent * sampled.y + normal * sampled.z);
+    normal = normalize(t * sampled.x + bitangent * sampled.y + normal * sampled.z);
 #endif
     if (!gl_FrontFacing) normal = -normal;
 

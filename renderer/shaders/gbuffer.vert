@@ -1,5 +1,6 @@
 // Puts a mesh on the picture and its normal and texture coordinates at its vertices; TANGENTS: its tangents, for normal
-// maps; COLORS: its vertex colours.
+// maps; COLORS: its vertex colours. They share vectors (see gbuffer_inputs.glsl): software devices pay for each vector at
+// each vertex and at each triangle.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "../shared/scene_layout.h"
@@ -9,15 +10,16 @@ layout(push_constant) uniform Push { InstancePush instance; };
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
 layout(location = 2) in vec2 uv;
-layout(location = 0) out vec3 normal_out;
-layout(location = 1) out vec2 uv_out;
+layout(location = 0) out vec4 normal_u;
 #ifdef TANGENTS
 layout(location = 3) in vec4 tangent;  // w: handedness
-layout(location = 2) out vec4 tangent_out;
+layout(location = 1) out vec4 tangent_v;
+#else
+layout(location = 1) out float v;
 #endif
 #ifdef COLORS
 layout(location = 4) in vec4 color;
-layout(location = 3) out vec4 color_out;
+layout(location = 2) out vec4 color_out;
 #endif
 
 vec3 turned(vec3 v) {
@@ -26,10 +28,13 @@ vec3 turned(vec3 v) {
 
 void main() {
     gl_Position = instance.clip_from_mesh * vec4(position, 1.0);
-    normal_out = turned(normal);
-    uv_out = uv;
+    normal_u = vec4(turned(normal), uv.x);
 #ifdef TANGENTS
-    tangent_out = vec4(turned(tangent.xyz), tangent.w * instance.normal_x.w);
+    vec3 t = turned(tangent.xyz);
+    float length_out = tangent.w * instance.normal_x.w < 0.0 ? kLeftHandedLength : 1.0;
+    tangent_v = vec4(t * (length_out * inversesqrt(max(dot(t, t), 1e-30))), uv.y);
+#else
+    v = uv.y;
 #endif
 #ifdef COLORS
     color_out = color;

@@ -4,6 +4,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "../shared/scene_layout.h"
+#include "gbuffer_inputs.glsl"
 #include "surface_packing.glsl"
 
 layout(set = 0, binding = kBindMaterial, std140) uniform Material { MaterialBlock material; };
@@ -12,26 +13,21 @@ layout(set = 0, binding = kBindBaseColor) uniform sampler2D base_color_map;
 layout(constant_id = kConstBaseColorTexture) const uint kBaseColorTexture = 0u;
 layout(constant_id = kConstMask) const uint kMask = 0u;
 
-layout(location = 0) in vec3 normal_in;
-layout(location = 1) in vec2 uv;
-#ifdef TANGENTS
-layout(location = 2) in vec4 tangent_in;
-#endif
 layout(location = 0) out uvec4 words;
 
 void main() {
     if (kMask == 1u) {
         float alpha = material.base_color.a;
-        if (kBaseColorTexture == 1u) alpha *= texture(base_color_map, uv).a;
+        if (kBaseColorTexture == 1u) alpha *= texture(base_color_map, uv()).a;
         if (alpha < material.factors.w) discard;
     }
     // Seen from behind, the whole frame turns over.
     float facing = gl_FrontFacing ? 1.0 : -1.0;
-    words.x = packed_normal(facing * normal_in) | uint(material.glass.z) << 24;
-    words.y = packed_position(uv);
-    words.z = packed_level(dFdx(uv), dFdy(uv));
+    words.x = packed_normal(facing * normal_u.xyz) | uint(material.glass.z) << 24;
+    words.y = packed_position(uv());
+    words.z = packed_level(dFdx(uv()), dFdy(uv()));
 #ifdef TANGENTS
-    words.z |= packed_tangent(facing * tangent_in);
+    words.z |= packed_tangent(facing * tangent());
 #endif
     words.w = 0u;
 }

@@ -55,6 +55,9 @@ const uint kConstVertexColors = 7u;
 const uint kConstBlendedLayer = 8u;
 const uint kGeometryConstants = 9u;
 
+// The length with which a left-handed tangent leaves the G-buffer's vertex shader; a right-handed one has 1.
+const float kLeftHandedLength = 64.0f;
+
 // Push constants of the geometry shaders.
 struct InstancePush {
     mat4 clip_from_mesh;

@@ -96,6 +96,21 @@ TEST(Pieces, HoldEveryTriangleOfTheMeshOnce) {
     EXPECT_EQ(next, detail.first_index[0] + mesh.index_count);
 }
 
+TEST(Pieces, DrawTheOutermostPartsFirst) {
+    const Scene scene = scene_of(make_leaves(500, {1, 1, 1}, 0.02f, 3));
+    const SceneDetail detail = make_detail(scene, false);
+    ASSERT_EQ(detail.pieces[0].size(), 1u);
+    // Leaves of two triangles, small beside the crown of radius 1.
+    double last = 2, first = 0;
+    for (std::size_t i = 0; i < detail.indices.size(); i += 6) {
+        const double out = glm::length(scene.vertices[detail.indices[i]].position);
+        if (i == 0) first = out;
+        EXPECT_LT(out, last + 0.06);
+        last = out;
+    }
+    EXPECT_GT(first, last + 0.5);
+}
+
 TEST(Pieces, NeverCutASurface) {
     const Scene scene = scene_of(street_things());
     const SceneDetail detail = make_detail(scene, false);
@@ -170,6 +185,12 @@ TEST(Levels, AreNotMadeOfLeavesOrSmallThings) {
         const SceneDetail detail = make_detail(scene_of(shape), true);
         for (const MeshPiece& piece : detail.pieces[0]) EXPECT_EQ(piece.levels.size(), 1u);
     }
+}
+
+TEST(Levels, AreMadeOfRoughlyRoundThingsToo) {
+    const SceneDetail detail = make_detail(scene_of(make_ball(1, 10, 6)), true);
+    ASSERT_EQ(detail.pieces[0].size(), 1u);
+    EXPECT_GT(detail.pieces[0][0].levels.size(), 1u);
 }
 
 struct Drawn {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
 #include <numbers>
 
 #include "renderer/frame_renderer.h"
@@ -243,6 +244,50 @@ TEST(Passes, DrawOnlyInstancesThatMayBeSeen) {
     ScenePasses passes(gpu, scene);
     passes.set_view({64, 64}, view_through(scene.cameras[0], SizePx{64, 64}));
     EXPECT_EQ(passes.triangles_in_view(), 2u);
+}
+
+TEST(Passes, ListWhatTheLastViewShowsWhetherOrNotItWasDrawn) {
+    Gpu gpu;
+    Scene scene = dark_scene();
+    const int grey = add_material(scene, glm::vec3(0.5f), 0, 1);
+    for (int i = 0; i < 3; ++i) add_square(scene, grey, moved(0, 0, -static_cast<float>(i)));
+    add_square(scene, grey, moved(0, 0, 20));  // behind the camera
+    ScenePasses passes(gpu, scene);
+    const SizePx size{64, 64};
+    const CameraView ahead = view_through(scene.cameras[0], size);
+    CameraView back = ahead;
+    back.world_from_eye = glm::rotate(ahead.world_from_eye, std::numbers::pi_v<float>, {0, 1, 0});
+    const auto triangles = [&](const CameraView& view, bool draw) {
+        passes.set_view(size, view);
+        if (draw) gpu.submit_and_wait([&](VkCommandBuffer commands) { passes.record(commands, nullptr); });
+        return passes.triangles_in_view();
+    };
+    EXPECT_EQ(triangles(ahead, true), 6u);
+    EXPECT_EQ(triangles(ahead, false), 6u);
+    EXPECT_EQ(triangles(back, false), 2u);
+    EXPECT_EQ(triangles(ahead, false), 6u) << "though the targets hold this view";
+    EXPECT_EQ(triangles(back, true), 2u);
+}
+
+// Blended words are not cleared: what an earlier view left there must not show.
+TEST(Passes, ForgetTheGlassOfAnEarlierView) {
+    Gpu gpu({.validation = true});
+    Scene scene = dark_scene();
+    add_square(scene, add_material(scene, {0.0f, 0.8f, 0.0f}, 0, 1), glm::mat4(1));
+    const int glass = add_material(scene, {1.0f, 0.0f, 0.0f}, 0, 1);
+    scene.materials[static_cast<std::size_t>(glass)].alpha_mode = AlphaMode::blend;
+    scene.materials[static_cast<std::size_t>(glass)].base_color.w = 0.25f;
+    add_square(scene, glass, moved(0, 0, 1, 0.5f));
+    const SizePx size{64, 64};
+    const CameraView view = view_through(scene.cameras[0], size);
+    CameraView aside = view;
+    aside.world_from_eye[3].x += 0.6f;
+    FrameRenderer renderer(gpu, scene);
+    const Image before = renderer.render(size, view, {}, centre_of(size)).image;
+    const Image after = renderer.render(size, aside, {}, centre_of(size)).image;
+    EXPECT_TRUE(after == FrameRenderer(gpu, scene).render(size, aside, {}, centre_of(size)).image);
+    EXPECT_FALSE(after == before);
+    EXPECT_TRUE(gpu.validation_messages().empty()) << gpu.validation_messages().front();
 }
 
 TEST(Passes, DrawTheGeometryOfAStillViewOnceAndOfAnotherAnew) {
