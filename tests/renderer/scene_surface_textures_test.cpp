@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
 
 #include "renderer/frame_renderer.h"
 #include "renderer/scene_tangents.h"
@@ -100,6 +101,53 @@ TEST(SurfaceTextures, ReadForEachSampleGiveThePictureThatTheGBufferGives) {
         Scene flat = scene;
         flat.materials[0].normal_texture.texture = -1;
         EXPECT_LT(psnr_db(early, render(gpu, flat, true)), same - 10) << from_behind;
+    }
+    EXPECT_TRUE(gpu.validation_messages().empty()) << gpu.validation_messages().front();
+}
+
+// The same sheet with its textures and its texture coordinates turned over, so that its tangents are
+// left-handed, and a mesh of another size under an instance that sets it right. The normal map's red is
+// negated with its sides, unless `bumps_stay`.
+Scene turned_over(Scene scene, bool bumps_stay) {
+    const int bumps =
+        scene.textures[static_cast<std::size_t>(scene.materials[0].normal_texture.texture)].image;
+    for (std::size_t i = 0; i < scene.images.size(); ++i) {
+        SceneImage& image = scene.images[i];
+        const SceneImage before = image;
+        for (int y = 0; y < image.height; ++y) {
+            for (int x = 0; x < image.width; ++x) {
+                for (int c = 0; c < 4; ++c) {
+                    const auto at = [&](int column) {
+                        return static_cast<std::size_t>(4 * (y * image.width + column) + c);
+                    };
+                    const std::uint8_t value = before.rgba[at(image.width - 1 - x)];
+                    const bool negate = c == 0 && static_cast<int>(i) == bumps && !bumps_stay;
+                    image.rgba[at(x)] = negate ? static_cast<std::uint8_t>(255 - value) : value;
+                }
+            }
+        }
+    }
+    constexpr float kLarger = 32;
+    SceneMesh& mesh = scene.meshes[0];
+    for (SceneVertex& v : scene.vertices) {
+        v.position *= kLarger;
+        v.uv.x = -v.uv.x;
+        v.tangent = -v.tangent;
+    }
+    mesh.bounds = {kLarger * mesh.bounds.low, kLarger * mesh.bounds.high};
+    scene.instances[0].world_from_mesh = glm::scale(glm::mat4(1), glm::vec3(1 / kLarger));
+    return scene;
+}
+
+TEST(SurfaceTextures, LookTheSameTurnedOverWithTheirCoordinates) {
+    Gpu gpu({.validation = true});
+    const Scene scene = textured_scene();
+    ASSERT_GT(scene.vertices[0].tangent.w * scene.vertices[100].tangent.w, 0);
+    for (const bool late : {false, true}) {
+        const Image image = render(gpu, scene, late);
+        EXPECT_GT(psnr_db(image, render(gpu, turned_over(scene, false), late)), 45) << late;
+        // The measure sees which way the bumps go.
+        EXPECT_LT(psnr_db(image, render(gpu, turned_over(scene, true), late)), 35) << late;
     }
     EXPECT_TRUE(gpu.validation_messages().empty()) << gpu.validation_messages().front();
 }
