@@ -187,12 +187,6 @@ TEST(Levels, AreNotMadeOfLeavesOrSmallThings) {
     }
 }
 
-TEST(Levels, AreMadeOfRoughlyRoundThingsToo) {
-    const SceneDetail detail = make_detail(scene_of(make_ball(1, 10, 6)), true);
-    ASSERT_EQ(detail.pieces[0].size(), 1u);
-    EXPECT_GT(detail.pieces[0][0].levels.size(), 1u);
-}
-
 struct Drawn {
     Image image;
     std::uint64_t triangles = 0;
