@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <atomic>
+#include <exception>
+#include <mutex>
 #include <thread>
 #include <vector>
 
@@ -10,13 +12,30 @@ namespace parafovea {
 
 void on_all_processors(int count, const std::function<void(int)>& work) {
     std::atomic<int> next = 0;
+    std::mutex failing;
+    std::exception_ptr failure;
+    int failed = count;
     const auto take_turns = [&] {
-        for (int i = next++; i < count; i = next++) work(i);
+        for (int i = next++; i < count; i = next++) {
+            try {
+                work(i);
+            } catch (...) {
+                // All below i have been begun, so the lowest that fails is always reached.
+                next = count;
+                const std::scoped_lock lock(failing);
+                if (i > failed) continue;
+                failed = i;
+                failure = std::current_exception();
+            }
+        }
     };
-    const int threads = std::min(static_cast<int>(std::thread::hardware_concurrency()), count);
-    std::vector<std::jthread> others;
-    for (int i = 1; i < threads; ++i) others.emplace_back(take_turns);
-    take_turns();
+    {
+        const int threads = std::min(static_cast<int>(std::thread::hardware_concurrency()), count);
+        std::vector<std::jthread> others;
+        for (int i = 1; i < threads; ++i) others.emplace_back(take_turns);
+        take_turns();
+    }
+    if (failure) std::rethrow_exception(failure);
 }
 
 }  // namespace parafovea

@@ -6,12 +6,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <exception>
 #include <map>
 #include <memory>
 #include <stdexcept>
-#include <thread>
 #include <utility>
+
+#include "renderer/all_processors.h"
 
 namespace parafovea {
 namespace {
@@ -61,23 +61,13 @@ SceneImage decode(const EncodedImage& encoded) {
     return image;
 }
 
-// Decodes on two threads; images are most of a file's loading time.
+// Images are most of a file's loading time.
 void decode_all(const std::vector<EncodedImage>& encoded, const std::vector<int>& wanted, Scene& scene) {
     scene.images.resize(wanted.size());
-    std::exception_ptr failure[2];
-    const auto work = [&](std::size_t first) {
-        try {
-            for (std::size_t i = first; i < wanted.size(); i += 2)
-                scene.images[i] = decode(encoded[static_cast<std::size_t>(wanted[i])]);
-        } catch (...) {
-            failure[first] = std::current_exception();
-        }
-    };
-    std::thread other(work, 1);
-    work(0);
-    other.join();
-    for (const std::exception_ptr& f : failure)
-        if (f) std::rethrow_exception(f);
+    on_all_processors(static_cast<int>(wanted.size()), [&](int i) {
+        const auto at = static_cast<std::size_t>(i);
+        scene.images[at] = decode(encoded[static_cast<std::size_t>(wanted[at])]);
+    });
 }
 
 class MaterialReader {

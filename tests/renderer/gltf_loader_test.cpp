@@ -198,6 +198,32 @@ TEST(GltfLoader, RefusesAnExtensionThatTheFileCannotDoWithout) {
     EXPECT_THROW(file.load(), std::runtime_error);
 }
 
+TEST(GltfLoader, NamesTheFirstOfItsBrokenImagesEveryTime) {
+    GltfFile file;
+    file.primitive = R"({"attributes":{"POSITION":0},"indices":1,"material":0})";
+    // A transparent pixel, and three images that are none.
+    const std::string pixel =
+        "iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAYAAAAfFcSJAAAADUlEQVR42mNkYPhfDwAChwGA60e6kgAAAABJRU5ErkJggg==";
+    file.more =
+        R"(,"materials":[{"pbrMetallicRoughness":{"baseColorTexture":{"index":0},"metallicRoughnessTexture":
+        {"index":1}},"normalTexture":{"index":2},"emissiveTexture":{"index":3}}],"textures":[{"source":0},
+        {"source":1},{"source":2},{"source":3}],"images":[{"name":"sound","uri":"data:image/png;base64,)" +
+        pixel + R"("},{"name":"wood","uri":"data:image/png;base64,AAAA"},{"name":"stone","uri":
+        "data:image/png;base64,AAAA"},{"name":"glass","uri":"data:image/png;base64,AAAA"}])";
+    std::string first;
+    for (int i = 0; i < 50; ++i) {
+        std::string line;
+        try {
+            file.load();
+        } catch (const std::runtime_error& error) {
+            line = error.what();
+        }
+        if (i == 0) first = line;
+        ASSERT_EQ(line, first);
+    }
+    EXPECT_NE(first.find("image 'wood' cannot be decoded ("), std::string::npos) << first;
+}
+
 TEST(Tangents, PointAlongTheTexturesUWithTheBitangentUp) {
     Triangles square;
     for (const auto& [x, y] : {std::pair{0.0f, 0.0f}, {1.0f, 0.0f}, {1.0f, 1.0f}, {0.0f, 1.0f}}) {
