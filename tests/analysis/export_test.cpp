@@ -8,7 +8,8 @@
 #include "analysis/bids_check.h"
 #include "analysis/gzip_file.h"
 #include "analysis/long_csv.h"
-#include "tests/analysis/temporary_folder.h"
+#include "tests/message_of.h"
+#include "tests/temporary_folder.h"
 
 namespace parafovea {
 namespace {

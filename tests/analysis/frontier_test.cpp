@@ -11,7 +11,8 @@
 
 #include "analysis/frontier_report.h"
 #include "analysis/tradeoff_table.h"
-#include "tests/analysis/temporary_folder.h"
+#include "tests/message_of.h"
+#include "tests/temporary_folder.h"
 
 namespace parafovea {
 namespace {

@@ -11,7 +11,8 @@
 #include "analysis/gnuplot.h"
 #include "analysis/power.h"
 #include "analysis/psychometric_figure.h"
-#include "tests/analysis/temporary_folder.h"
+#include "tests/message_of.h"
+#include "tests/temporary_folder.h"
 
 namespace parafovea {
 namespace {

@@ -3,7 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/analysis/temporary_folder.h"
+#include "tests/message_of.h"
+#include "tests/temporary_folder.h"
 
 namespace parafovea {
 namespace {

@@ -9,7 +9,8 @@
 #include <sstream>
 
 #include "analysis/random_draw.h"
-#include "tests/analysis/temporary_folder.h"
+#include "tests/message_of.h"
+#include "tests/temporary_folder.h"
 
 namespace parafovea {
 namespace {

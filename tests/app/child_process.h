@@ -1,4 +1,4 @@
-// A program run by a test.
+// The program, run by a test.
 #pragma once
 
 #include <signal.h>
@@ -11,7 +11,25 @@
 #include <string>
 #include <vector>
 
+#include "tests/temporary_folder.h"
+
 namespace parafovea {
+
+// What a run of the program said, and how it ended.
+struct ProgramOutput {
+    int exit_code = -1;
+    std::string out, errors;  // standard output and error
+};
+
+// Runs the program in a folder to its end. The environment is in the shell's words: "NAME=value".
+inline ProgramOutput run_program(const TemporaryFolder& folder, const std::string& arguments,
+                                 const std::string& environment = "") {
+    const std::string command = "cd '" + folder.path().string() + "' && " + environment + " " +
+                                PARAFOVEA_PROGRAM + " " + arguments + " >out.txt 2>errors.txt";
+    const int status = std::system(command.c_str());
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text_of(folder / "out.txt"),
+            text_of(folder / "errors.txt")};
+}
 
 // A child process with its output thrown away; killed at the end of its life if it still runs.
 class Child {

@@ -1,76 +1,33 @@
 // The program from outside: exit codes, one clear line for each thing that cannot go on, and files that
 // others read.
 #include <gtest/gtest.h>
-#include <signal.h>
 #include <sqlite3.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
-#include <cstdio>
-#include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
-#include <sstream>
 #include <string>
 
+#include "tests/app/child_process.h"
+
+namespace parafovea {
 namespace {
 
 namespace fs = std::filesystem;
 
-struct ProgramRun {
-    int exit_code = -1;
-    std::string out;     // standard output
-    std::string errors;  // standard error
-};
-
-std::string contents(const fs::path& path) {
-    std::ifstream file(path);
-    std::ostringstream text;
-    text << file.rdbuf();
-    return text.str();
-}
-
-// A folder of this test's own, gone afterwards; and runs of the program in it.
 class Cli : public testing::Test {
   protected:
-    void SetUp() override {
-        std::string pattern = (fs::temp_directory_path() / "parafovea_cli_XXXXXX").string();
-        ASSERT_NE(mkdtemp(pattern.data()), nullptr);
-        folder_ = pattern;
+    ProgramOutput run(const std::string& arguments, const std::string& environment = "") const {
+        return run_program(folder_, arguments, environment);
     }
-    void TearDown() override {
-        fs::permissions(folder_, fs::perms::owner_all);
-        fs::remove_all(folder_);
-    }
+    void write(const std::string& name, const std::string& text) const { folder_.write(name, text); }
 
-    ProgramRun run(const std::string& arguments, const std::string& environment = "") const {
-        const fs::path errors = folder_ / "stderr.txt";
-        const std::string command = "cd '" + folder_.string() + "' && " + environment + " " +
-                                    PARAFOVEA_PROGRAM + " " + arguments + " 2>'" + errors.string() + "'";
-        ProgramRun result;
-        FILE* pipe = popen(command.c_str(), "r");
-        std::array<char, 4096> buffer;
-        for (std::size_t n; (n = fread(buffer.data(), 1, buffer.size(), pipe)) > 0;)
-            result.out.append(buffer.data(), n);
-        const int status = pclose(pipe);
-        result.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-        result.errors = contents(errors);
-        return result;
-    }
-
-    fs::path write(const std::string& name, const std::string& text) const {
-        std::ofstream(folder_ / name) << text;
-        return folder_ / name;
-    }
-
-    fs::path folder_;
+    TemporaryFolder folder_;
 };
 
 // Exit 1 and exactly one line, holding every one of the parts.
-void expect_one_line(const ProgramRun& result, const std::vector<std::string>& parts) {
+void expect_one_line(const ProgramOutput& result, const std::vector<std::string>& parts) {
     EXPECT_EQ(result.exit_code, 1) << result.errors;
     EXPECT_EQ(std::count(result.errors.begin(), result.errors.end(), '\n'), 1) << result.errors;
     for (const std::string& part : parts)
@@ -79,7 +36,7 @@ void expect_one_line(const ProgramRun& result, const std::vector<std::string>& p
 }
 
 std::string protocol(const std::string& name) {
-    return contents(fs::path(PARAFOVEA_SOURCE_DIR) / "protocols" / name);
+    return text_of(fs::path(PARAFOVEA_SOURCE_DIR) / "protocols" / name);
 }
 
 std::string replaced(std::string text, const std::string& from, const std::string& to) {
@@ -95,8 +52,9 @@ TEST_F(Cli, WrongUsageExitsWithTwo) {
 }
 
 TEST_F(Cli, EverySubcommandHasHelpWithAnExample) {
-    for (const char* command : {"simulate", "analyze", "plan", "check", "render", "foveate", "scenes"}) {
-        const ProgramRun result = run(std::string(command) + " --help");
+    for (const char* command : {"run", "replay", "simulate", "analyze", "export", "power", "plan", "check",
+                                "render", "foveate", "devices", "bench", "tradeoff", "scenes", "withdraw"}) {
+        const ProgramOutput result = run(std::string(command) + " --help");
         EXPECT_EQ(result.exit_code, 0) << command;
         EXPECT_NE(result.out.find("Example: parafovea " + std::string(command)), std::string::npos)
             << command;
@@ -147,12 +105,12 @@ TEST_F(Cli, ThePlanIsTheSameForTheSameSeedAndAnotherForAnotherSeed) {
 }
 
 TEST_F(Cli, RenderWritesItsStatistics) {
-    const ProgramRun result =
+    const ProgramOutput result =
         run("render --scene primitives --method kfr --sigma 1.8 --alpha 4 --size 320x180 --out a.png --stats "
             "a.json");
     ASSERT_EQ(result.exit_code, 0) << result.errors;
     EXPECT_GT(fs::file_size(folder_ / "a.png"), 1000u);
-    const auto stats = nlohmann::json::parse(contents(folder_ / "a.json"));
+    const auto stats = nlohmann::json::parse(text_of(folder_ / "a.json"));
     EXPECT_EQ(stats.at("width"), 320);
     EXPECT_EQ(stats.at("height"), 180);
     EXPECT_EQ(stats.at("buffer_width"), 178);
@@ -170,7 +128,7 @@ TEST_F(Cli, RenderWritesItsStatistics) {
 TEST_F(Cli, AnalyzeReproducesThePublishedTable) {
     const fs::path table = fs::path(PARAFOVEA_SHARED_DIR) / "data" / "table1_consistent_responses.csv";
     if (!fs::exists(table)) GTEST_SKIP() << table << " is not here";
-    const ProgramRun result = run("analyze '" + table.string() + "' --out results");
+    const ProgramOutput result = run("analyze '" + table.string() + "' --out results");
     ASSERT_EQ(result.exit_code, 0) << result.errors;
     for (const char* name : {"figure10.svg", "figure10.png", "figure10.pdf", "figure10.csv", "table1.csv",
                              "table1.md", "report.html"})
@@ -189,12 +147,12 @@ std::string small_study() {
 
 TEST_F(Cli, ASimulatedStudyEndsWithItsFigureTableAndReport) {
     write("study.toml", small_study());
-    const ProgramRun result = run("simulate study.toml --participants 2 --seed 5 --out study --quiet");
+    const ProgramOutput result = run("simulate study.toml --participants 2 --seed 5 --out study --quiet");
     ASSERT_EQ(result.exit_code, 0) << result.errors;
     EXPECT_EQ(result.errors, "");
     EXPECT_TRUE(fs::exists(folder_ / "study" / "figure10.svg"));
     EXPECT_TRUE(fs::exists(folder_ / "study" / "table1.csv"));
-    EXPECT_NE(contents(folder_ / "study" / "report.html").find("simulated"), std::string::npos);
+    EXPECT_NE(text_of(folder_ / "study" / "report.html").find("simulated"), std::string::npos);
     EXPECT_NE(result.out.find("Table 1"), std::string::npos);
 
     // What is there is not overwritten.
@@ -207,22 +165,16 @@ TEST_F(Cli, TheSameSeedGivesTheSameAnswers) {
     ASSERT_EQ(run("simulate study.toml --participants 1 --seed 5 --out again --quiet").exit_code, 0);
     ASSERT_EQ(run("export once --format csv --out once_csv").exit_code, 0);
     ASSERT_EQ(run("export again --format csv --out again_csv").exit_code, 0);
-    EXPECT_EQ(contents(folder_ / "once_csv" / "responses.csv"),
-              contents(folder_ / "again_csv" / "responses.csv"));
+    EXPECT_EQ(text_of(folder_ / "once_csv" / "responses.csv"),
+              text_of(folder_ / "again_csv" / "responses.csv"));
 }
 
 // Everything a killed study leaves behind is whole: the files open, pass SQLite's own check, and hold
 // answers.
 TEST_F(Cli, KillingASimulatedStudyLosesNoAnswer) {
     write("study.toml", small_study());
-    const pid_t child = fork();
-    if (child == 0) {
-        if (chdir(folder_.c_str()) != 0) _exit(1);
-        execl(PARAFOVEA_PROGRAM, "parafovea", "simulate", "study.toml", "--participants", "8", "--seed", "5",
-              "--out", "study", "--quiet", static_cast<char*>(nullptr));
-        _exit(1);
-    }
-    ASSERT_GT(child, 0);
+    Child child({PARAFOVEA_PROGRAM, "simulate", (folder_ / "study.toml").string(), "--participants", "8",
+                 "--seed", "5", "--out", (folder_ / "study").string(), "--quiet"});
 
     // Kill as soon as some answers are on the disk, in the middle of a session.
     const auto answers = [&](const fs::path& file) {
@@ -245,9 +197,7 @@ TEST_F(Cli, KillingASimulatedStudyLosesNoAnswer) {
         usleep(50'000);
         if (fs::exists(first)) seen = answers(first);
     }
-    kill(child, SIGKILL);
-    int status = 0;
-    waitpid(child, &status, 0);
+    child.kill_and_wait();
     ASSERT_GE(seen, 20);
     EXPECT_GE(answers(first), seen);
 
@@ -272,7 +222,7 @@ TEST_F(Cli, KillingASimulatedStudyLosesNoAnswer) {
 TEST_F(Cli, ABidsExportOfASimulatedStudyBreaksNoCheckedRule) {
     write("study.toml", small_study());
     ASSERT_EQ(run("simulate study.toml --participants 1 --seed 5 --out study --quiet").exit_code, 0);
-    const ProgramRun result = run("export study --format bids --out bids");
+    const ProgramOutput result = run("export study --format bids --out bids");
     ASSERT_EQ(result.exit_code, 0) << result.errors;
     EXPECT_EQ(result.errors, "");
     EXPECT_NE(result.out.find(" 0 violations"), std::string::npos) << result.out;
@@ -288,3 +238,4 @@ TEST_F(Cli, WithdrawingDeletesOnePersonsFilesAndNoOther) {
 }
 
 }  // namespace
+}  // namespace parafovea

@@ -1,7 +1,6 @@
 // Whole sessions through the program with gaze from recordings, from FOVE's client library and from a
 // Gazepoint server: what the devices deliver is what the file holds, and the validity rules act on it.
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -14,7 +13,6 @@
 #include <thread>
 #include <vector>
 
-#include "app/session_file.h"
 #include "study/session_log_reader.h"
 #include "tests/app/child_process.h"
 #include "tests/app/short_study.h"
@@ -27,35 +25,13 @@ namespace fs = std::filesystem;
 
 class DeviceSession : public testing::Test {
   protected:
-    void SetUp() override {
-        std::string pattern = (fs::temp_directory_path() / "parafovea_devices_XXXXXX").string();
-        ASSERT_NE(mkdtemp(pattern.data()), nullptr);
-        folder_ = pattern;
-    }
-    void TearDown() override { fs::remove_all(folder_); }
-
     std::vector<std::string> command(const std::string& protocol, const std::string& gaze) const {
-        std::ofstream(folder_ / "short.toml") << protocol;
-        return {PARAFOVEA_PROGRAM,
-                "run",
-                (folder_ / "short.toml").string(),
-                "--participant",
-                "P03",
-                "--seed",
-                "11",
-                "--display",
-                "headless",
-                "--gaze",
-                gaze,
-                "--controller",
-                "simulated",
-                "--quiet",
-                "--data",
-                (folder_ / "data").string()};
+        folder_.write("short.toml", protocol);
+        return headless_run(folder_, "data", gaze);
     }
-    fs::path file() const { return latest_session_file(folder_ / "data", "short", "P03"); }
+    fs::path file() const { return short_session(folder_, "data"); }
 
-    fs::path folder_;
+    TemporaryFolder folder_;
 };
 
 // The recording as the test reads it: when each sample was made, and whether an eye was seen.
@@ -112,13 +88,12 @@ void expect_shown_again(const SessionRows& rows) {
 class ReplayedRecording : public DeviceSession {
   protected:
     void SetUp() override {
-        DeviceSession::SetUp();
         recording_ = fs::path(PARAFOVEA_SHARED_DIR) / "gaze_recordings/hmd_binocular_120hz_static2.csv";
         if (!fs::exists(recording_)) GTEST_SKIP() << "no " << recording_ << "; it is not part of the project";
     }
 
     SessionRows run(const fs::path& recording, const std::string& rules) {
-        const std::string protocol = short_study_toml() + "[validity]\n" + rules;
+        const std::string protocol = short_study_toml({.tables = "[validity]\n" + rules});
         EXPECT_EQ(Child(command(protocol, "replay:" + recording.string())).wait(), 0);
         return read_session(file());
     }
@@ -227,33 +202,14 @@ TEST_F(ReplayedRecording, GazeFarFromTheCentreAndBlinksBreakTheirRules) {
 
 // Two trials in real time, a calibration of five targets before them.
 std::string live_study_toml(const std::string& rules) {
-    return R"(name = "short"
-language = "en"
-scenes = ["primitives"]
-[display]
-width_px = 96
-height_px = 64
-horizontal_fov_deg = 40
-refresh_hz = 70
-[timing]
-lead_in_s = 0.1
-interval_s = 0.6
-gap_s = 0.1
-[conditions]
-method = "kfr"
-reference = "full"
-[conditions.factors]
-sigma = [1.2, 2.4]
-alpha = [1]
-[design]
-sessions = 1
-[calibration]
-targets = 5
-each_s = 0.7
-[texts.en]
-question = "The same?"
-[validity]
-)" + rules;
+    return short_study_toml({.interval_s = 0.6,
+                             .gap_s = 0.1,
+                             .alphas = "1",
+                             .training_trials = 0,
+                             .sessions = 1,
+                             .validation_share = 0,
+                             .pages = false,
+                             .tables = "[calibration]\ntargets = 5\neach_s = 0.7\n[validity]\n" + rules});
 }
 
 TEST_F(DeviceSession, FovesClientLibraryDrivesASessionWithItsOwnTimesAndStates) {

@@ -16,62 +16,25 @@
 #include "devices/openxr/openxr_gaze.h"
 #include "study/session_log_reader.h"
 #include "study/session_runner.h"
+#include "tests/app/child_process.h"
+#include "tests/app/short_study.h"
 #include "tests/devices/openxr_headset.h"
 
 namespace parafovea {
 namespace {
 
-constexpr const char* kStudy = R"(name = "headset"
-kind = "final"
-description = "A few short trials on a headset"
-language = "en"
-scenes = ["primitives"]
-[display]
-width_px = 80
-height_px = 90
-horizontal_fov_deg = 100
-refresh_hz = 70
-[foveation]
-gaze = "tracked"
-[timing]
-lead_in_s = 0.1
-lead_in = "fixation"
-interval_s = 0.6
-gap_s = 0.1
-[conditions]
-method = "kfr"
-reference = "full"
-[conditions.factors]
-sigma = [1.2, 1.8, 2.4]
-alpha = [1, 4]
-[design]
-training_trials = 0
-sessions = 1
-validation_share = 0.0
-condition_order = "williams"
-interval_order = "balanced"
-scene_use = "per_session"
-[validity]
-gaze_lost_share = 0.3
-missed_frames = 2
-[rests]
-after_session = false
-after_failed_validation = false
-[keys]
-same = "a"
-different = "b"
-proceed = "a"
-[texts.en]
-introduction = "Welcome."
-calibration = "Follow the dot."
-training = "Practice."
-session = "Part {session} of {sessions}."
-question = "The same?"
-rest = "Rest."
-rest_after_failed_validation = "Rest a little."
-paused = "A pause."
-finished = "That was all."
-)";
+constexpr const char* kView = "width_px = 80\nheight_px = 90\nhorizontal_fov_deg = 100";
+
+// Six trials.
+const ShortStudy kStudy{.view = kView,
+                        .gaze = "tracked",
+                        .interval_s = 0.6,
+                        .gap_s = 0.1,
+                        .sigmas = "1.2, 1.8, 2.4",
+                        .training_trials = 0,
+                        .sessions = 1,
+                        .validation_share = 0,
+                        .tables = "[validity]\ngaze_lost_share = 0.3\nmissed_frames = 2\n"};
 
 // Eyes that wander slowly; the same in every round.
 void write_recording(const std::filesystem::path& path) {
@@ -121,7 +84,7 @@ class HeadsetSession : public testing::Test {
         SimulatedClock clock;
         SessionEnd end = SessionEnd::stopped;
         {
-            const Protocol protocol = parse_protocol(kStudy, "headset.toml");
+            const Protocol protocol = parse_protocol(short_study_toml(kStudy), "short.toml");
             PicturePairJudge judge(display_model(protocol.display.view, 100));
             SimulatedPerson person(protocol, clock, judge, {.seed = 3});
             OpenXrStageOptions options;
@@ -283,36 +246,23 @@ TEST_F(HeadsetSession, AParticipantWhoQuitsInTheHeadsetCanResume) {
 
 // The program itself, in real time, its eye tracker on a thread of its own.
 TEST_F(HeadsetSession, TheProgramRunsItFromTheCommandLineAndVerifiesIt) {
-    std::string study = kStudy;
-    const auto replace = [&study](std::string_view old, std::string_view replacement) {
-        study.replace(study.find(old), old.size(), replacement);
-    };
-    replace("sigma = [1.2, 1.8, 2.4]", "sigma = [1.2, 2.4]");
-    replace("alpha = [1, 4]", "alpha = [4]");
-    // How fast the machine is must not decide.
-    replace("missed_frames = 2", "");
-    replace("gaze_lost_share = 0.3", "");
-    std::ofstream(folder_ / "study.toml") << study;
+    ShortStudy study = kStudy;
+    study.sigmas = "1.2, 2.4";
+    study.alphas = "4";
+    study.tables = "";  // how fast the machine is must not decide
+    folder_.write("short.toml", short_study_toml(study));
     const ValidationLayers layers;
     layers.use("shrink=16;gaze=" + (folder_ / "gaze.csv").string());
-    const std::string output = (folder_ / "output.txt").string();
-    const std::string program = PARAFOVEA_PROGRAM;
-    const auto shell = [&output](const std::string& command) {
-        std::string line = "VK_INSTANCE_LAYERS=VK_LAYER_KHRONOS_validation ";
-        line.append(command).append(" >>").append(output).append(" 2>&1");
-        return std::system(line.c_str());
+    const auto run_validated = [&](const std::string& arguments) {
+        return run_program(folder_, arguments, "VK_INSTANCE_LAYERS=VK_LAYER_KHRONOS_validation");
     };
-    const std::string folder = (folder_ / "data").string();
-    ASSERT_EQ(
-        shell(program + " run " + (folder_ / "study.toml").string() +
-              " --participant P01 --display openxr --hash-pictures --controller simulated --seed 3 --data " +
-              folder),
-        0)
-        << text_of(output);
+    const ProgramOutput ran = run_validated(
+        "run short.toml --participant P03 --display openxr --hash-pictures --controller simulated --seed 3 "
+        "--data data");
+    ASSERT_EQ(ran.exit_code, 0) << ran.errors;
     layers.expect_silence();
 
-    std::filesystem::path session;
-    for (const auto& entry : std::filesystem::directory_iterator(folder)) session = entry.path();
+    const std::filesystem::path session = short_session(folder_, "data");
     const SessionRows rows = read_session(session);
     EXPECT_TRUE(rows.finished);
     expect_all_trials_count(rows);
@@ -326,11 +276,13 @@ TEST_F(HeadsetSession, TheProgramRunsItFromTheCommandLineAndVerifiesIt) {
             stimulus_frames += row.intervals[static_cast<std::size_t>(phase)].presented_frames;
     }
 
-    ASSERT_EQ(shell(program + " replay --verify " + session.string()), 0) << text_of(output);
-    EXPECT_THAT(text_of(output),
+    const ProgramOutput replayed = run_validated("replay --verify '" + session.string() + "'");
+    ASSERT_EQ(replayed.exit_code, 0) << replayed.errors;
+    const std::string said = ran.out + ran.errors + replayed.out + replayed.errors;
+    EXPECT_THAT(said,
                 testing::HasSubstr(std::to_string(stimulus_frames) + " pictures rendered and compared"));
     for (const char* const complaint : {"VUID", "UNASSIGNED", "SYNC-HAZARD", "Validation Error"})
-        EXPECT_THAT(text_of(output), testing::Not(testing::HasSubstr(complaint)));
+        EXPECT_THAT(said, testing::Not(testing::HasSubstr(complaint)));
 }
 
 }  // namespace

@@ -138,7 +138,7 @@ TEST(OperatorWidgets, AbortAsksFirst) {
 }
 
 TEST(OperatorWidgets, EveryRequestOfASessionIsServedAndLogged) {
-    test::TemporaryFolder folder;
+    TemporaryFolder folder;
     {
         SessionLog log = test::start(folder / "s.sqlite");
         test::ProgramRun run;

@@ -1,16 +1,13 @@
 // `parafovea render` from outside: parameters, eyes, frames and contact sheets.
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
-#include <array>
-#include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
 
 #include "renderer/image.h"
+#include "tests/app/child_process.h"
 
 namespace parafovea {
 namespace {
@@ -19,30 +16,16 @@ namespace fs = std::filesystem;
 
 class RenderCommandLine : public testing::Test {
   protected:
-    void SetUp() override {
-        std::string pattern = (fs::temp_directory_path() / "parafovea_render_XXXXXX").string();
-        ASSERT_NE(mkdtemp(pattern.data()), nullptr);
-        folder_ = pattern;
-    }
-    void TearDown() override { fs::remove_all(folder_); }
-
     // What the program says, both streams; its exit code is in exit_code_.
     std::string render(const std::string& arguments) {
-        const std::string command = "cd '" + folder_.string() + "' && " + PARAFOVEA_PROGRAM +
-                                    " render --scene primitives --out a.png --size 96x64 " + arguments +
-                                    " 2>&1";
-        FILE* pipe = popen(command.c_str(), "r");
-        std::string said;
-        std::array<char, 4096> buffer;
-        for (std::size_t n; (n = fread(buffer.data(), 1, buffer.size(), pipe)) > 0;)
-            said.append(buffer.data(), n);
-        const int status = pclose(pipe);
-        exit_code_ = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-        return said;
+        const ProgramOutput said =
+            run_program(folder_, "render --scene primitives --out a.png --size 96x64 " + arguments);
+        exit_code_ = said.exit_code;
+        return said.out + said.errors;
     }
     Image picture(const std::string& name = "a.png") const { return load_image(folder_ / name); }
 
-    fs::path folder_;
+    TemporaryFolder folder_;
     int exit_code_ = 0;
 };
 

@@ -1,6 +1,5 @@
 // `parafovea run` from outside: killed at any moment, it goes on and ends like a session that was not.
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <chrono>
 #include <filesystem>
@@ -24,39 +23,17 @@ using Seconds = std::chrono::duration<double>;
 
 class RunSession : public testing::Test {
   protected:
-    void SetUp() override {
-        std::string pattern = (fs::temp_directory_path() / "parafovea_run_XXXXXX").string();
-        ASSERT_NE(mkdtemp(pattern.data()), nullptr);
-        folder_ = pattern;
-        std::ofstream(folder_ / "short.toml") << short_study_toml();
-    }
-    void TearDown() override { fs::remove_all(folder_); }
+    void SetUp() override { folder_.write("short.toml", short_study_toml()); }
 
-    std::vector<std::string> command(const std::string& data, std::vector<std::string> more = {}) const {
-        std::vector<std::string> words = {PARAFOVEA_PROGRAM,
-                                          "run",
-                                          (folder_ / "short.toml").string(),
-                                          "--participant",
-                                          "P03",
-                                          "--seed",
-                                          "11",
-                                          "--display",
-                                          "headless",
-                                          "--gaze",
-                                          "simulated",
-                                          "--controller",
-                                          "simulated",
-                                          "--quiet",
-                                          "--data",
-                                          (folder_ / data).string()};
+    std::vector<std::string> command(const std::string& data,
+                                     const std::vector<std::string>& more = {}) const {
+        std::vector<std::string> words = headless_run(folder_, data);
         words.insert(words.end(), more.begin(), more.end());
         return words;
     }
-    fs::path file(const std::string& data) const {
-        return latest_session_file(folder_ / data, "short", "P03");
-    }
+    fs::path file(const std::string& data) const { return short_session(folder_, data); }
 
-    fs::path folder_;
+    TemporaryFolder folder_;
 };
 
 std::string integrity(const fs::path& path) {
@@ -164,17 +141,14 @@ TEST_F(RunSession, AChangedProtocolIsNotResumed) {
 }
 
 TEST(SessionFile, TheLatestFileOfThisStudyAndParticipantIsFound) {
-    std::string pattern = (fs::temp_directory_path() / "parafovea_files_XXXXXX").string();
-    ASSERT_NE(mkdtemp(pattern.data()), nullptr);
-    const fs::path folder = pattern;
-    EXPECT_EQ(latest_session_file(folder, "a", "P01"), fs::path());
+    const TemporaryFolder folder;
+    EXPECT_EQ(latest_session_file(folder.path(), "a", "P01"), fs::path());
     EXPECT_EQ(new_session_file(folder / "new", "a", "P01", 0).filename(), "a_P01_19700101T000000Z.sqlite");
     for (const char* name : {"a_P01_20260101T000000Z.sqlite", "a_P01_20251231T235959Z.sqlite",
                              "a_P01_x_20270101T000000Z.sqlite", "a_P011_20270101T000000Z.sqlite",
                              "b_P01_20270101T000000Z.sqlite", "a_P01_20270101T000000Z.sqlite-wal"})
-        std::ofstream(folder / name) << "";
-    EXPECT_EQ(latest_session_file(folder, "a", "P01").filename(), "a_P01_20260101T000000Z.sqlite");
-    fs::remove_all(folder);
+        folder.write(name, "");
+    EXPECT_EQ(latest_session_file(folder.path(), "a", "P01").filename(), "a_P01_20260101T000000Z.sqlite");
 }
 
 }  // namespace

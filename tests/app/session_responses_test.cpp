@@ -37,7 +37,7 @@ std::int64_t all(const FrameTimes& frames) {
 }
 
 TEST(SessionResponses, every_frame_of_every_picture_is_in_the_histogram_of_frame_times) {
-    const test::TemporaryFolder folder;
+    const TemporaryFolder folder;
     record(folder / "a.sqlite", "P1");
     const StudyData data = read_study({(folder / "a.sqlite").string()}, [](const Response&) {});
     ASSERT_TRUE(data.recordings.frames);
@@ -49,7 +49,7 @@ TEST(SessionResponses, every_frame_of_every_picture_is_in_the_histogram_of_frame
 }
 
 TEST(SessionResponses, a_missed_refresh_is_one_frame_of_two_refreshes) {
-    const test::TemporaryFolder folder;
+    const TemporaryFolder folder;
     record(folder / "a.sqlite", "P1");
     // Which frame of the whole session to delay: the 10th of some testing trial's first picture.
     const SessionRows rows = read_session(folder / "a.sqlite");
@@ -69,7 +69,7 @@ TEST(SessionResponses, a_missed_refresh_is_one_frame_of_two_refreshes) {
 }
 
 TEST(SessionResponses, each_trial_carries_its_share_of_lost_gaze_and_each_session_its_gaze) {
-    const test::TemporaryFolder folder;
+    const TemporaryFolder folder;
     record(folder / "a.sqlite", "P1");
     std::vector<Response> responses;
     const StudyData data = read_study({(folder / "a.sqlite").string()},
@@ -91,7 +91,7 @@ TEST(SessionResponses, each_trial_carries_its_share_of_lost_gaze_and_each_sessio
 }
 
 TEST(SessionResponses, sessions_read_together_give_in_the_order_of_the_files_what_each_gives_alone) {
-    const test::TemporaryFolder folder;
+    const TemporaryFolder folder;
     constexpr int kSessions = 5;
     std::vector<std::string> files;
     for (int i = 0; i < kSessions; ++i) {
@@ -132,7 +132,7 @@ TEST(SessionResponses, sessions_read_together_give_in_the_order_of_the_files_wha
 }
 
 TEST(SessionResponses, a_copy_is_found_and_the_planned_number_of_participants_is_handed_on) {
-    const test::TemporaryFolder folder;
+    const TemporaryFolder folder;
     record(folder / "a.sqlite", "P1", {}, "participants = 7");
     record(folder / "b.sqlite", "P2", {}, "participants = 7");
     std::filesystem::copy_file(folder / "a.sqlite", folder / "copy.sqlite");

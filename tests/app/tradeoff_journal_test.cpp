@@ -8,7 +8,8 @@
 
 #include "app/tradeoff_views.h"
 #include "renderer/scene_catalog.h"
-#include "tests/analysis/temporary_folder.h"
+#include "tests/message_of.h"
+#include "tests/temporary_folder.h"
 
 namespace parafovea {
 namespace {

@@ -14,7 +14,7 @@
 #include <thread>
 
 #include "app/tradeoff_journal.h"
-#include "tests/analysis/temporary_folder.h"
+#include "tests/temporary_folder.h"
 
 namespace parafovea {
 namespace {

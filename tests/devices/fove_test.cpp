@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "devices/fove/fove_gaze.h"
+#include "tests/message_of.h"
 
 namespace parafovea {
 namespace {
@@ -13,13 +14,10 @@ namespace {
 const FoveGazeSettings kFake{.library = PARAFOVEA_FAKE_FOVE};
 
 std::string error_of(const FoveGazeSettings& settings) {
-    try {
+    return message_of([&] {
         SteadyClock clock;
         FoveGaze gaze(clock, settings);
-    } catch (const std::runtime_error& error) {
-        return error.what();
-    }
-    return "no error";
+    });
 }
 
 TEST(FoveGaze, DeliversEveryFrameWithItsStatusAndCountsDroppedOnes) {

@@ -10,6 +10,7 @@
 
 #include "devices/replay_gaze.h"
 #include "devices/simulated/simulated_gaze.h"
+#include "tests/message_of.h"
 
 namespace parafovea {
 namespace {
@@ -19,12 +20,7 @@ using testing::HasSubstr;
 const std::filesystem::path kRecordings = std::filesystem::path(PARAFOVEA_SHARED_DIR) / "gaze_recordings";
 
 std::string error_of(std::string_view text) {
-    try {
-        parse_gaze_recording(text, "file.csv");
-    } catch (const std::runtime_error& error) {
-        return error.what();
-    }
-    return "no error";
+    return message_of([&] { parse_gaze_recording(text, "file.csv"); });
 }
 
 std::vector<GazeSample> simulated_samples(std::size_t at_most = 1'000'000) {

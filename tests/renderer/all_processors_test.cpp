@@ -9,6 +9,8 @@
 #include <thread>
 #include <vector>
 
+#include "tests/message_of.h"
+
 namespace parafovea {
 namespace {
 
@@ -22,17 +24,14 @@ TEST(AllProcessors, DoEachPieceOnce) {
 
 TEST(AllProcessors, ThrowTheExceptionOfTheLowestPieceThatThrowsEveryTime) {
     for (int round = 0; round < 100; ++round) {
-        std::string message;
-        try {
+        const std::string message = message_of([] {
             on_all_processors(200, [](int i) {
                 if (i < 5) return;
                 // The first to fail is the last to say so.
                 if (i == 5) std::this_thread::sleep_for(std::chrono::milliseconds(1));
                 throw std::runtime_error("piece " + std::to_string(i));
             });
-        } catch (const std::runtime_error& error) {
-            message = error.what();
-        }
+        });
         ASSERT_EQ(message, "piece 5");
     }
 }

@@ -1,17 +1,16 @@
 // glTF files of every kind: sound ones load whole, broken ones are refused in one line, none crashes.
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cmath>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <stdexcept>
 #include <string>
 
 #include "devices/random.h"
 #include "renderer/gltf_loader.h"
 #include "renderer/scene_catalog.h"
+#include "tests/message_of.h"
+#include "tests/temporary_folder.h"
 
 namespace parafovea {
 namespace {
@@ -23,12 +22,7 @@ fs::path shared_scenes() {
 }
 
 std::string refusal(const fs::path& file) {
-    try {
-        load_scene(file.string());
-    } catch (const std::runtime_error& e) {
-        return e.what();
-    }
-    return "";
+    return message_of([&] { load_scene(file.string()); });
 }
 
 // Whatever loads must hold together: the renderer trusts it.
@@ -151,30 +145,26 @@ class DamagedFiles : public testing::Test {
         const fs::path file =
             shared_scenes() / "conformance/BoxTexturedNonPowerOfTwo/glTF-Binary/BoxTextured.glb";
         if (!fs::exists(file)) GTEST_SKIP() << file << " is not there";
-        std::ifstream in(file, std::ios::binary);
-        bytes_.assign(std::istreambuf_iterator<char>(in), {});
-        damaged_ = fs::path(testing::TempDir()) / ("parafovea_damaged_" + std::to_string(getpid()) + ".glb");
+        bytes_ = text_of(file);
     }
-    void TearDown() override { fs::remove(damaged_); }
 
     void load(const std::string& bytes) {
-        std::ofstream(damaged_, std::ios::binary)
-            .write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+        const fs::path damaged = folder_.write("damaged.glb", bytes);
         try {
-            expect_consistent(load_scene(damaged_.string()));
+            expect_consistent(load_scene(damaged.string()));
         } catch (const std::runtime_error& e) {
             EXPECT_EQ(std::string(e.what()).find('\n'), std::string::npos) << e.what();
         }
     }
 
+    TemporaryFolder folder_;
     std::string bytes_;
-    fs::path damaged_;
 };
 
 TEST_F(DamagedFiles, OfAnyLengthAreRefused) {
     for (std::size_t length = 0; length < bytes_.size(); length += 1 + length / 40) {
-        std::ofstream(damaged_, std::ios::binary).write(bytes_.data(), static_cast<std::streamsize>(length));
-        EXPECT_NE(refusal(damaged_), "") << "cut to " << length << " bytes";
+        EXPECT_NE(refusal(folder_.write("damaged.glb", bytes_.substr(0, length))), "")
+            << "cut to " << length << " bytes";
     }
 }
 

@@ -8,18 +8,10 @@
 
 #include "renderer/gpu_memory.h"
 #include "renderer/gpu_pipeline.h"
+#include "tests/message_of.h"
 
 namespace parafovea {
 namespace {
-
-std::string message_of(const std::function<void()>& f) {
-    try {
-        f();
-    } catch (const std::runtime_error& error) {
-        return error.what();
-    }
-    return "";
-}
 
 TEST(Gpu, NamesItsDeviceAndDriver) {
     const Gpu gpu({.validation = true});

@@ -12,7 +12,6 @@ namespace parafovea {
 namespace {
 
 using test::ProgramRun;
-using test::TemporaryFolder;
 using testing::IsEmpty;
 
 // Alpha is the factor, sigma the parameter that adapts: two tracks of 30 trials in each of two sessions.

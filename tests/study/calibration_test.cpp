@@ -12,7 +12,6 @@ namespace {
 
 using test::ProgramRun;
 using test::start;
-using test::TemporaryFolder;
 using testing::ElementsAre;
 
 Protocol protocol_with(const std::string& more, const std::string& texts = "") {

@@ -14,7 +14,6 @@ namespace {
 
 using test::FailingVfs;
 using test::ProgramRun;
-using test::TemporaryFolder;
 using testing::AllOf;
 using testing::AnyOf;
 using testing::HasSubstr;

@@ -1,10 +1,7 @@
 // A stage, an eye tracker and a participant for tests: exact, and with faults on order.
 #pragma once
 
-#include <unistd.h>
-
 #include <cmath>
-#include <filesystem>
 #include <functional>
 #include <set>
 #include <string>
@@ -14,6 +11,7 @@
 #include "devices/gaze_source.h"
 #include "study/protocol.h"
 #include "study/stage.h"
+#include "tests/temporary_folder.h"
 
 namespace parafovea::test {
 
@@ -135,29 +133,6 @@ class FakeParticipant final : public ControllerSource {
     std::vector<ControllerEvent> events_;
     std::set<std::string> seen_;
     bool asked_ = false, pending_ = false;
-};
-
-// A folder that goes away with it.
-class TemporaryFolder {
-  public:
-    TemporaryFolder() {
-        // In memory where that can be: what the tests ask of the log does not depend on the disk's speed.
-        const std::filesystem::path memory = "/dev/shm";
-        const bool fast = ::access(memory.c_str(), W_OK) == 0;
-        std::string name =
-            ((fast ? memory : std::filesystem::temp_directory_path()) / "parafovea_study_XXXXXX").string();
-        path_ = ::mkdtemp(name.data());
-    }
-    TemporaryFolder(const TemporaryFolder&) = delete;
-    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-    ~TemporaryFolder() {
-        std::error_code ignored;
-        std::filesystem::remove_all(path_, ignored);
-    }
-    std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
-
-  private:
-    std::filesystem::path path_;
 };
 
 // A small protocol: 4 conditions, 1 training trial, two sessions of 4 + 2 trials, short intervals.

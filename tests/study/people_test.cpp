@@ -16,7 +16,6 @@ namespace parafovea {
 namespace {
 
 using test::ProgramRun;
-using test::TemporaryFolder;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;

@@ -57,7 +57,7 @@ Protocol long_protocol() {
 // and logging takes of the processor, all threads together; the memory the second half added.
 void million_frames(benchmark::State& state) {
     for (auto _ : state) {
-        test::TemporaryFolder folder;
+        TemporaryFolder folder;
         const Protocol protocol = long_protocol();
         SimulatedClock clock;
         test::FakeStage stage(clock, 90);
@@ -88,7 +88,7 @@ BENCHMARK(million_frames)->Iterations(1)->Unit(benchmark::kSecond);
 
 // The part the frame loop waits for: handing a finished trial to the writer.
 void append_a_trial(benchmark::State& state) {
-    test::TemporaryFolder folder;
+    TemporaryFolder folder;
     test::ProgramRun run;
     const Protocol protocol = test::small_protocol();
     const TrialPlan plan = make_plan(protocol, 0, 1);

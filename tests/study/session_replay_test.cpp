@@ -19,7 +19,6 @@ namespace {
 
 using test::ProgramRun;
 using test::start;
-using test::TemporaryFolder;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;

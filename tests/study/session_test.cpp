@@ -21,7 +21,6 @@ using test::facts;
 using test::ProgramRun;
 using test::resume;
 using test::start;
-using test::TemporaryFolder;
 using testing::HasSubstr;
 
 std::vector<std::string> what_happened(const SessionRows& rows) {
