@@ -28,10 +28,7 @@ class SessionSurvey::Rows {
     bool more_;
 };
 
-SessionSurvey::SessionSurvey(const std::filesystem::path& path) : database_(open_for_reading(path)) {
-    // Nearly every page is read once: look at it where the system keeps it rather than copying it.
-    database_->execute("PRAGMA mmap_size = 1073741824");
-}
+SessionSurvey::SessionSurvey(const std::filesystem::path& path) : database_(open_for_reading(path)) {}
 
 SessionSurvey::~SessionSurvey() = default;
 

@@ -12,6 +12,7 @@
 #include "study/session_log.h"
 #include "study/session_log_reader.h"
 #include "study/session_runner.h"
+#include "study/session_survey.h"
 #include "tests/study/lab.h"
 
 namespace parafovea {
@@ -306,6 +307,23 @@ TEST(SessionLog, refuses_to_overwrite_and_unwritable_folders_and_other_files) {
     std::fclose(file);
     EXPECT_THROW(read_session(folder / "text.sqlite"), std::runtime_error);
     EXPECT_THROW(resume(folder / "text.sqlite"), std::runtime_error);
+}
+
+TEST(SessionSurvey, a_file_that_is_cut_off_while_it_is_read_is_refused) {
+    TemporaryFolder folder;
+    const auto path = folder / "s.sqlite";
+    {
+        SessionLog log = start(path);
+        ProgramRun().go(log);
+    }
+    SessionSurvey survey(path);
+    ASSERT_FALSE(survey.frame_times(0).empty());
+    std::filesystem::resize_file(path, std::filesystem::file_size(path) / 4);
+    const auto read_on = [&] {
+        for (int shown = 1; shown < 13; ++shown) survey.frame_times(shown);
+    };
+    EXPECT_THAT(read_on,
+                testing::ThrowsMessage<std::runtime_error>(testing::HasSubstr("s.sqlite: expected to read")));
 }
 
 TEST(Session, resumes_at_the_first_unanswered_trial_and_ends_like_an_uninterrupted_one) {
