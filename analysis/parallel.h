@@ -1,6 +1,7 @@
 // Runs independent jobs on every core.
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <cstddef>
 #include <exception>
@@ -10,27 +11,33 @@
 
 namespace parafovea {
 
-// Calls job(i) once for every i below count, from several threads; returns when all are done. The first
-// exception a job throws is thrown again here; jobs not yet begun are then left out.
+// Calls job(i) once for every i below count, from as many threads as there are processors; returns when all
+// are done. Where jobs throw, those not yet begun are left out and the exception of the lowest i is thrown
+// again here: the same one every time.
 template <typename Job>
-void parallel_for(std::size_t count, Job&& job, std::size_t threads = std::thread::hardware_concurrency()) {
+void parallel_for(std::size_t count, Job&& job) {
     std::atomic<std::size_t> next{0};
+    std::mutex failing;
     std::exception_ptr failure;
-    std::mutex failure_mutex;
+    std::size_t failed = count;
     const auto work = [&] {
         for (std::size_t i = next++; i < count; i = next++) {
             try {
                 job(i);
             } catch (...) {
-                const std::lock_guard lock(failure_mutex);
-                if (!failure) failure = std::current_exception();
+                // All below i have been begun, so the lowest that fails is always reached.
                 next = count;
+                const std::lock_guard lock(failing);
+                if (i > failed) continue;
+                failed = i;
+                failure = std::current_exception();
             }
         }
     };
     {
+        const std::size_t threads = std::min<std::size_t>(std::thread::hardware_concurrency(), count);
         std::vector<std::jthread> helpers;
-        for (std::size_t i = 1; i < threads && i < count; ++i) helpers.emplace_back(work);
+        for (std::size_t i = 1; i < threads; ++i) helpers.emplace_back(work);
         work();
     }
     if (failure) std::rethrow_exception(failure);

@@ -1,13 +1,10 @@
 // parafovea simulate: simulated participants through a whole study, several at a time.
-#include <algorithm>
-#include <atomic>
 #include <cstdio>
-#include <exception>
 #include <filesystem>
 #include <mutex>
 #include <stdexcept>
-#include <thread>
 
+#include "analysis/parallel.h"
 #include "app/commands.h"
 #include "app/progress.h"
 #include "app/session_responses.h"
@@ -82,31 +79,13 @@ void SimulateCommand::run() const {
     {
         StudyProgress progress(participants_, static_cast<int>(make_plan(protocol, 0, 0).trials.size()),
                                quiet_);
-        std::atomic<int> next = 0;
-        std::mutex failure_mutex;
-        std::exception_ptr failure;
-        std::vector<std::jthread> workers;
-        const int threads =
-            std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, participants_);
-        for (int i = 0; i < threads; ++i) {
-            workers.emplace_back([&] {
-                try {
-                    for (int participant; (participant = next++) < participants_;) {
-                        const fs::path file = sessions / (protocol.name + "_" +
-                                                          simulated_participant_id(participant) + ".sqlite");
-                        run_simulated_session(
-                            protocol, {participant, seed_, file}, pictures, judge,
-                            [&](const SessionProgress& now) { progress.update(participant, now); });
-                    }
-                } catch (...) {
-                    next = participants_;  // the others finish the session they are at
-                    const std::scoped_lock lock(failure_mutex);
-                    if (!failure) failure = std::current_exception();
-                }
-            });
-        }
-        workers.clear();
-        if (failure) std::rethrow_exception(failure);
+        parallel_for(static_cast<std::size_t>(participants_), [&](std::size_t i) {
+            const int participant = static_cast<int>(i);
+            const fs::path file =
+                sessions / (protocol.name + "_" + simulated_participant_id(participant) + ".sqlite");
+            run_simulated_session(protocol, {participant, seed_, file}, pictures, judge,
+                                  [&](const SessionProgress& now) { progress.update(participant, now); });
+        });
     }
     analyze_and_print({sessions.string()}, out_);
 }
