@@ -8,7 +8,7 @@ namespace parafovea {
 
 WithdrawCommand::WithdrawCommand(CLI::App& program) {
     CLI::App* command = program.add_subcommand("withdraw", "Delete every session file of one participant");
-    command->footer("Example: parafovea withdraw P07 --data data");
+    command->footer("Example: parafovea withdraw P07 --data sessions");
     command->add_option("participant", participant_, "The participant's pseudonym")->required();
     command->add_option("--data", data_, "Folder to search, with those below it")->capture_default_str();
     command->callback([this] { run(); });

@@ -189,7 +189,7 @@ class WithdrawCommand {
   private:
     void run() const;
 
-    std::string participant_, data_ = "data";
+    std::string participant_, data_ = "sessions";
 };
 
 class BenchCommand {
