@@ -8,7 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "analysis/psychometric_results.h"
 #include "analysis/tally.h"
 
 namespace parafovea {
@@ -39,10 +38,9 @@ struct PowerAssumptions {
     double effect = 1.0;
 };
 
-// The functions fitted to an earlier study, or read from the psychometric.csv that the analysis writes (its
-// "all" rows with the logistic function). Throws std::runtime_error naming file and line when it cannot be
-// read or holds no such row.
-PowerAssumptions assumptions_from(const PsychometricResults& results);
+// The functions fitted to an earlier study, from the psychometric.csv that the analysis writes (its "all"
+// rows with the logistic function). Throws std::runtime_error naming file and line when it cannot be read or
+// holds no such row.
 PowerAssumptions read_power_assumptions(const std::filesystem::path& psychometric_csv);
 
 struct PowerQuestion {

@@ -14,21 +14,6 @@
 
 namespace parafovea {
 
-PowerAssumptions assumptions_from(const PsychometricResults& results) {
-    PowerAssumptions assumptions;
-    double lapse = 0.0, guess = 0.0;
-    for (const StudyFit& fit : results.pooled) {
-        assumptions.functions.push_back({fit.alpha, fit.fit.best.threshold, fit.fit.best.width});
-        lapse += fit.fit.best.lambda / static_cast<double>(results.pooled.size());
-        guess += fit.fit.best.gamma / static_cast<double>(results.pooled.size());
-    }
-    if (!results.pooled.empty()) {
-        assumptions.lapse_rate = lapse;
-        assumptions.guess_rate = guess;
-    }
-    return assumptions;
-}
-
 PowerAssumptions read_power_assumptions(const std::filesystem::path& path) {
     std::ifstream file(path);
     if (!file)

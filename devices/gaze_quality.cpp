@@ -113,16 +113,6 @@ GazeQuality measure_gaze_quality(std::span<const std::optional<DirectionDeg>> di
     return q;
 }
 
-double windowed_rms_s2s_deg(std::span<const std::optional<DirectionDeg>> directions, std::size_t window) {
-    std::vector<double> values;
-    for (std::size_t first = 0; window >= 2 && first + window <= directions.size(); ++first) {
-        GazeQuality q;
-        measure_steps(directions.subspan(first, window), q);
-        values.push_back(q.rms_s2s_deg);
-    }
-    return median(std::move(values));
-}
-
 std::vector<DirectionDeg> calibration_targets(int count, double extent_azimuth_deg,
                                               double extent_elevation_deg) {
     if (count != 5 && count != 9 && count != 13)

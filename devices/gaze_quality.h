@@ -32,9 +32,6 @@ struct GazeQuality {
 GazeQuality measure_gaze_quality(std::span<const std::optional<DirectionDeg>> directions, DirectionDeg target,
                                  double duration_s, double rate_hz);
 
-// A median over a sliding window of RMS-S2S, for stretches in which the eye moves.
-double windowed_rms_s2s_deg(std::span<const std::optional<DirectionDeg>> directions, std::size_t window);
-
 // 5, 9 or 13 targets within +-extent of straight ahead, the centre first; 5: the corners, 9: and the edges,
 // 13: and half way to the corners. Throws std::runtime_error for any other count.
 std::vector<DirectionDeg> calibration_targets(int count, double extent_azimuth_deg,

@@ -289,14 +289,14 @@ GazeRecording parse_gaze_recording(std::string_view text, const std::string& nam
     return recording;
 }
 
-GazeRecording read_gaze_recording(const std::filesystem::path& path, const RecordedScreen& screen) {
+GazeRecording read_gaze_recording(const std::filesystem::path& path) {
     std::ifstream file(path, std::ios::binary);
     std::ostringstream text;
     if (file) text << file.rdbuf();
     if (!file || file.bad())
         throw std::runtime_error("cannot read the gaze recording " + path.string() +
                                  "; check that the file is there and readable");
-    return parse_gaze_recording(text.str(), path.filename().string(), screen);
+    return parse_gaze_recording(text.str(), path.filename().string());
 }
 
 void write_gaze_csv(std::ostream& out, std::span<const GazeSample> samples) {

@@ -48,7 +48,7 @@ struct RecordedScreen {
 // std::runtime_error naming file and line.
 GazeRecording parse_gaze_recording(std::string_view text, const std::string& name,
                                    const RecordedScreen& screen = {});
-GazeRecording read_gaze_recording(const std::filesystem::path& path, const RecordedScreen& screen = {});
+GazeRecording read_gaze_recording(const std::filesystem::path& path);
 
 // Writes samples as CSV, one line each, so that they read back bit for bit:
 //   sequence,device_time_ns,host_time_ns,host_time_error_ns,arrival_time_ns,status,azimuth_deg,elevation_deg,

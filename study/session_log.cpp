@@ -48,7 +48,7 @@ std::int64_t last_wall_ns(Database& database) {
 }  // namespace
 
 struct SessionLog::State {
-    State(SessionFileLock held, const std::filesystem::path& path, const char* vfs)
+    State(SessionFileLock held, const std::filesystem::path& path, const char* vfs = nullptr)
         : lock(std::move(held)), database(path, Database::Mode::write, vfs) {}
 
     ~State() {
@@ -179,9 +179,8 @@ void SessionLog::write_new_file(State& state, const SessionFacts& facts, const P
     state.simulated_people = facts.simulated_people;
 }
 
-SessionLog SessionLog::open_to_resume(const std::filesystem::path& path, ClockAnchor anchor,
-                                      const char* vfs) {
-    auto state = std::make_unique<State>(SessionFileLock(path, SessionFileLock::Mode::open), path, vfs);
+SessionLog SessionLog::open_to_resume(const std::filesystem::path& path, ClockAnchor anchor) {
+    auto state = std::make_unique<State>(SessionFileLock(path, SessionFileLock::Mode::open), path);
     Database& database = state->database;
     migrate(database);
     set_up_connection(database);
@@ -276,17 +275,6 @@ void SessionLog::append_event(HostTime time, std::string kind, std::string detai
 void SessionLog::append_note(HostTime time, std::string text) {
     state_->enqueue([=, anchor = state_->anchor](Database& database) {
         database.prepare("INSERT INTO note VALUES (NULL, ?, ?, ?)").bind_all(anchor, time.ns, text).run();
-    });
-}
-
-void SessionLog::append_flag(int trial_number, int attempt, std::string kind, std::string detail) {
-    state_->enqueue([=](Database& database) {
-        database
-            .prepare(
-                "INSERT INTO flag VALUES (NULL, (SELECT trial_id FROM trial WHERE trial = ? AND attempt = "
-                "?), ?, ?)")
-            .bind_all(trial_number, attempt, kind, detail)
-            .run();
     });
 }
 

@@ -84,8 +84,7 @@ class SessionLog {
 
     // Opens a file to go on with. Throws std::runtime_error where it is missing, damaged, from a newer
     // program, or in use.
-    static SessionLog open_to_resume(const std::filesystem::path& path, ClockAnchor anchor,
-                                     const char* vfs = nullptr);
+    static SessionLog open_to_resume(const std::filesystem::path& path, ClockAnchor anchor);
 
     SessionLog(SessionLog&&) noexcept;
     ~SessionLog();  // writes what is queued
@@ -111,7 +110,6 @@ class SessionLog {
     void append_event(HostTime time, std::string kind,
                       std::string detail);              // "pause", "resumed", "stopped", ...
     void append_note(HostTime time, std::string text);  // the operator's words
-    void append_flag(int trial_number, int attempt, std::string kind, std::string detail);
     void append_questionnaire(HostTime time, std::string name, std::map<std::string, std::string> answers);
     void supersede_trial(int trial_number);  // its showings so far no longer count; they stay in the file
     void supersede_session(int session);     // ... for all its trials, and its pages come again

@@ -62,8 +62,6 @@ struct TrialRecord {
     bool interrupted = false;             // stopped from outside: no answer, and it will be shown again
 };
 
-std::string_view phase_name(Phase phase);
-
 // FNV-1a (64 bits) over every value of the record but those of the plan. It is stored with the record, so
 // that a change of any stored value is noticed.
 std::uint64_t content_hash(const TrialRecord& record);

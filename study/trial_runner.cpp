@@ -175,20 +175,4 @@ TrialRecord run_trial(const PlannedTrial& trial, const Protocol& protocol, Stage
     return RunningTrial(trial, protocol, stage, gaze, controller, control).run(clock);
 }
 
-std::string_view phase_name(Phase phase) {
-    switch (phase) {
-        case Phase::lead_in:
-            return "lead_in";
-        case Phase::first_interval:
-            return "first_interval";
-        case Phase::gap:
-            return "gap";
-        case Phase::second_interval:
-            return "second_interval";
-        case Phase::question:
-            return "question";
-    }
-    return "unknown";
-}
-
 }  // namespace parafovea
