@@ -78,6 +78,7 @@ class FrameRenderer {
     Gpu& gpu_;
     ScenePasses passes_;
     bool shade_in_compute_;
+    bool dear_samples_;
     PassTimer timer_;
     SizePx size_;
     GpuImage target_;
