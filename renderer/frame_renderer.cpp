@@ -27,7 +27,6 @@ FrameRenderer::FrameRenderer(Gpu& gpu, const Scene& scene, const ScenePassOption
     : gpu_(gpu),
       passes_(gpu, scene, options),
       shade_in_compute_(options.shade_in_compute.value_or(!gpu.runs_on_the_cpu())),
-      dear_samples_(scene.ray_marched && options.samples_per_sample >= 4),
       timer_(gpu, kMostPasses) {}
 
 FrameRenderer::~FrameRenderer() = default;
@@ -74,8 +73,7 @@ ShadingSource FrameRenderer::shading_source() const {
     return {.thing = passes_.ray_marched() ? ShadedThing::primitives : ShadedThing::meshes,
             .layout = passes_.shading_set_layout(),
             .constants = passes_.shading_constants(),
-            .in_compute = shade_in_compute_,
-            .dear_samples = dear_samples_};
+            .in_compute = shade_in_compute_};
 }
 
 FrameRenderer::Order FrameRenderer::order(SizePx size, const CameraView& view, const RenderMethod& method,

@@ -78,7 +78,6 @@ class FrameRenderer {
     Gpu& gpu_;
     ScenePasses passes_;
     bool shade_in_compute_;
-    bool dear_samples_;
     PassTimer timer_;
     SizePx size_;
     GpuImage target_;

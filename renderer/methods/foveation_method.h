@@ -40,9 +40,6 @@ struct ShadingSource {
     std::vector<ShaderConstant> constants;
     // Reduced buffers are shaded by compute shaders instead of fragments, by methods that can.
     bool in_compute = false;
-    // A sample costs so much (several rays) that one skipped for nothing counts for more than how it is
-    // stored.
-    bool dear_samples = false;
 };
 
 // Whether the device's shaders can write storage images of a format.

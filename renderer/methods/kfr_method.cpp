@@ -347,9 +347,8 @@ MethodStatistics KfrMethod::statistics() const {
     if (setting_.inset > 0) statistics.shaded_samples += t.counts.count(1);
     note(setting_.culling, "culling", "only texels that a pixel reads are shaded", "switched off");
     note(t.listed.has_value(), "list of texels",
-         t.listed_columns == t.reduced.extent().width
-             ? "samples are shaded one after another, whatever lies between them"
-             : "around the gaze, where needed texels are strewn among others",
+         formats_.in_compute ? "samples are shaded one after another, whatever lies between them"
+                             : "around the gaze, where needed texels are strewn among others",
          setting_.culling
              ? "hardly a texel would be left out, or the device cannot write the buffer from shaders"
              : "every texel is shaded");

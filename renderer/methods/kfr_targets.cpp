@@ -51,10 +51,7 @@ KfrTargets::KfrTargets(Gpu& gpu, const KfrFormats& formats, const TexelList::Mak
         mask = image_of(gpu, buffer, kKfrMaskFormat,
                         VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT);
     }
-    if (formats.in_compute || (mask && formats.lists && formats.list_all))
-        listed_columns = mask.extent().width;
-    else if (mask && formats.lists)
-        listed_columns = strewn_columns();
+    listed_columns = formats.in_compute ? mask.extent().width : mask && formats.lists ? strewn_columns() : 0;
     if (listed_columns > 0) {
         listed.emplace(gpu, list_maker, mask, listed_columns);
         listed->bind_to(listed_set);

@@ -28,7 +28,6 @@ struct KfrFormats {
     VkFormat reduced =
         VK_FORMAT_R16G16B16A16_UNORM;  // display-linear values in [0, 1]; finer than halves near 1
     bool lists = false;                // shaders can write the reduced buffer as a storage image
-    bool list_all = false;             // samples are dear: list all texels, not only strewn ones
     bool in_compute = false;           // Pass I runs in compute shaders; needs `lists`
     bool exact_bilinear = false;  // Pass II interpolates with full float weights instead of the sampler's
 };

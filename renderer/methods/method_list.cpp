@@ -94,7 +94,6 @@ std::unique_ptr<FoveationMethod> make_method(Gpu& gpu, const std::string& name, 
     const KfrFormats formats{.target = kTargetFormat,
                              .reduced = reduced,
                              .lists = lists,
-                             .list_all = source.dear_samples,
                              .in_compute = source.in_compute && lists};
     if (name == "full") return std::make_unique<FullMethod>(gpu, source, kTargetFormat);
     if (name == "kfr") return std::make_unique<KfrMethod>(gpu, source, formats);
