@@ -10,12 +10,12 @@ layout(push_constant) uniform Push { vec2 pixels_per_texel; };
 
 void main() {
     vec2 at = gl_FragCoord.xy * pixels_per_texel;
-    vec3 ray = camera.ray_origin.xyz + at.x * camera.ray_per_px_x.xyz + at.y * camera.ray_per_px_y.xyz;
+    vec3 ray = ray_through(at);
     float stretch = length(ray);
     vec3 direction = ray / stretch;
     float court = meet_court(camera.eye.xyz, direction).distance;
-    const float kSky = 1e9;
     float cone = length(camera.ray_per_px_x.xyz) * pixels_per_texel.x;
-    float distance = trace_solids(camera.eye.xyz, direction, court > 0.0 ? court : kSky, max(0.35 * cone, 2e-4)).distance;
+    RowSpans spans = row_spans(camera.eye.xyz, direction, 0.0);
+    float distance = trace_solids(spans, camera.eye.xyz, direction, court > 0.0 ? court : kSky, max(0.35 * cone, 2e-4)).distance;
     depth = distance < kSky ? camera.eye.w * stretch / distance : 0.0;
 }

@@ -208,8 +208,9 @@ Solid solid_at(int row, vec3 p) {
     return s;
 }
 
-void span_sphere(vec3 from, vec3 direction, vec3 centre, float radius, inout vec2 span) {
+void span_sphere(vec3 from, vec3 direction, vec3 centre, float radius, float reach, inout vec2 span) {
     vec3 m = from - centre;
+    radius += reach * (radius + length(m));
     float b = dot(m, direction);
     float h = b * b - dot(m, m) + radius * radius;
     float s = sqrt(max(h, 0.0));
@@ -219,27 +220,44 @@ void span_sphere(vec3 from, vec3 direction, vec3 centre, float radius, inout vec
 }
 
 // The stretch of a ray in which solids of a row, swollen by `margin`, may be met: (first, last); first > last when none.
-vec2 row_span(int row, vec3 from, vec3 direction, float margin) {
+// It holds for all rays whose unit vectors lie within `reach` of `direction`.
+vec2 row_span(int row, vec3 from, vec3 direction, float margin, float reach) {
     vec2 span = vec2(1e9, -1.0);
     if (row == kFrontRow) {
-        span_sphere(from, direction, kSphereAt, 0.76 + margin, span);
-        span_sphere(from, direction, kTorusAt, 0.70 + margin, span);
-        span_sphere(from, direction, kRoundedBoxAt, 0.99 + margin, span);
-        span_sphere(from, direction, kCapsuleAt, 0.86 + margin, span);
-        span_sphere(from, direction, kOctahedronAt, 0.91 + margin, span);
+        span_sphere(from, direction, kSphereAt, 0.76 + margin, reach, span);
+        span_sphere(from, direction, kTorusAt, 0.70 + margin, reach, span);
+        span_sphere(from, direction, kRoundedBoxAt, 0.99 + margin, reach, span);
+        span_sphere(from, direction, kCapsuleAt, 0.86 + margin, reach, span);
+        span_sphere(from, direction, kOctahedronAt, 0.91 + margin, reach, span);
     } else if (row == kMiddleRow) {
-        span_sphere(from, direction, kBoxAt, 1.13 + margin, span);
-        span_sphere(from, direction, kCylinderAt, 1.06 + margin, span);
-        span_sphere(from, direction, kConeAt + vec3(0.0, 0.79, 0.0), 1.12 + margin, span);
-        span_sphere(from, direction, kHexagonAt, 1.03 + margin, span);
-        span_sphere(from, direction, kLinkAt, 1.03 + margin, span);
-        span_sphere(from, direction, kEllipsoidAt, 0.96 + margin, span);
+        span_sphere(from, direction, kBoxAt, 1.13 + margin, reach, span);
+        span_sphere(from, direction, kCylinderAt, 1.06 + margin, reach, span);
+        span_sphere(from, direction, kConeAt + vec3(0.0, 0.79, 0.0), 1.12 + margin, reach, span);
+        span_sphere(from, direction, kHexagonAt, 1.03 + margin, reach, span);
+        span_sphere(from, direction, kLinkAt, 1.03 + margin, reach, span);
+        span_sphere(from, direction, kEllipsoidAt, 0.96 + margin, reach, span);
     } else {
-        span_sphere(from, direction, kFrameAt, 1.60 + margin, span);
-        span_sphere(from, direction, kPyramidAt + vec3(0.0, 0.48, 0.0), 1.43 + margin, span);
-        span_sphere(from, direction, kPrismAt, 1.49 + margin, span);
-        span_sphere(from, direction, kRoundConeAt + vec3(0.0, 0.4, 0.0), 1.14 + margin, span);
-        span_sphere(from, direction, kArcAt + vec3(0.0, 0.55, 0.0), 1.13 + margin, span);
+        span_sphere(from, direction, kFrameAt, 1.60 + margin, reach, span);
+        span_sphere(from, direction, kPyramidAt + vec3(0.0, 0.48, 0.0), 1.43 + margin, reach, span);
+        span_sphere(from, direction, kPrismAt, 1.49 + margin, reach, span);
+        span_sphere(from, direction, kRoundConeAt + vec3(0.0, 0.4, 0.0), 1.14 + margin, reach, span);
+        span_sphere(from, direction, kArcAt + vec3(0.0, 0.55, 0.0), 1.13 + margin, reach, span);
+    }
+    return span;
+}
+
+// row_span() of a bundle of rays, begun where the first of them may meet a solid: the bundle is marched as one ("cone
+// marching"), which serves all its rays. A single ray, of no reach, has nothing to share.
+vec2 bundle_span(int row, vec3 from, vec3 direction, float reach) {
+    vec2 span = row_span(row, from, direction, 0.0, reach);
+    if (reach == 0.0) return span;
+    bool worth_it = true;
+    for (int turn = 0; turn < 24 && worth_it && span.x < span.y; ++turn) {
+        // Around a point of the middle ray no solid is nearer than its distance; the others pass that point within reach * t.
+        float width = reach * span.x;
+        float free = row_field(row, from + span.x * direction) - width;
+        span.x += max(free, 0.0);
+        worth_it = free > width;
     }
     return span;
 }

@@ -14,23 +14,27 @@ layout(constant_id = kConstSamples) const uint kSamples = 1u;
 float occlusion_effort = 1.0;
 float step_effort = 1.0;
 
-// Sphere tracing (Hart 1996) through a row; `last` when nothing is met before it. Four steps a turn, because loops cost
-// more than their bodies on some devices.
-float trace_row(int row, vec3 from, vec3 direction, float last, float cone) {
-    vec2 span = row_span(row, from, direction, 0.0);
+// Where the rays of a sample may meet the solids of each row: (first, last), metres along any of them.
+struct RowSpans {
+    vec2 front;
+    vec2 middle;
+    vec2 back;
+};
+
+RowSpans row_spans(vec3 from, vec3 direction, float reach) {
+    return RowSpans(bundle_span(kFrontRow, from, direction, reach), bundle_span(kMiddleRow, from, direction, reach),
+                    bundle_span(kBackRow, from, direction, reach));
+}
+
+// Sphere tracing (Hart 1996) through a row; `last` when nothing is met before it.
+float trace_row(int row, vec3 from, vec3 direction, vec2 span, float last, float cone) {
     span.y = min(span.y, last);
     float t = span.x;
     float found = last;
-    for (int turn = 0; turn < int(ceil(20.0 * step_effort)) && found == last && t < span.y; ++turn) {
-        float d0 = row_field(row, from + t * direction);
-        found = d0 < cone * t ? min(t, found) : found;
-        t += d0;
-        float d1 = row_field(row, from + t * direction);
-        found = found == last && d1 < cone * t ? t : found;
-        t += d1;
-        float d2 = row_field(row, from + t * direction);
-        found = found == last && d2 < cone * t ? t : found;
-        t += d2;
+    for (int i = 0; i < int(ceil(60.0 * step_effort)) && found == last && t < span.y; ++i) {
+        float d = row_field(row, from + t * direction);
+        found = d < cone * t ? t : last;
+        t += d;
     }
     return found;
 }
@@ -40,30 +44,27 @@ struct SolidHit {
     int row;
 };
 
-// The nearest solid along a ray.
-SolidHit trace_solids(vec3 from, vec3 direction, float last, float cone) {
+// The nearest solid along one of the rays that the spans are of.
+SolidHit trace_solids(RowSpans spans, vec3 from, vec3 direction, float last, float cone) {
     // With fewer steps a ray is let off a little farther from the solid.
     cone /= step_effort;
-    float front = trace_row(kFrontRow, from, direction, last, cone);
-    float middle = trace_row(kMiddleRow, from, direction, front, cone);
-    float back = trace_row(kBackRow, from, direction, middle, cone);
+    float front = trace_row(kFrontRow, from, direction, spans.front, last, cone);
+    float middle = trace_row(kMiddleRow, from, direction, spans.middle, front, cone);
+    float back = trace_row(kBackRow, from, direction, spans.back, middle, cone);
     return SolidHit(back, back < middle ? kBackRow : middle < front ? kMiddleRow : kFrontRow);
 }
 
 // The nearest miss of a ray to the sun past the solids of a row, as a share of the sun's radius.
 float nearest_miss(int row, vec3 from, vec3 to_sun) {
     const float kSunTangent = 0.035;
-    vec2 span = row_span(row, from, to_sun, 0.1);
+    vec2 span = row_span(row, from, to_sun, 0.1, 0.0);
     float share = 1.0;
     float t = max(span.x, 0.02);
     vec2 step_m = vec2(0.015, 0.6) / step_effort;
-    for (int turn = 0; turn < int(ceil(12.0 * step_effort)) && share > -1.0 && t < span.y; ++turn) {
-        float d0 = row_field(row, from + t * to_sun);
-        share = min(share, d0 / (kSunTangent * t));
-        t += clamp(d0, step_m.x, step_m.y);
-        float d1 = row_field(row, from + t * to_sun);
-        share = min(share, d1 / (kSunTangent * t));
-        t += clamp(d1, step_m.x, step_m.y);
+    for (int i = 0; i < int(ceil(24.0 * step_effort)) && share > -1.0 && t < span.y; ++i) {
+        float d = row_field(row, from + t * to_sun);
+        share = min(share, d / (kSunTangent * t));
+        t += clamp(d, step_m.x, step_m.y);
     }
     return share;
 }
@@ -143,11 +144,13 @@ float court_openness(vec3 point) {
     return mix(0.45, 1.0, depth) * mix(0.8, 1.0, corner);
 }
 
-vec3 radiance_along(vec3 from, vec3 direction, float cone) {
+const float kSky = 1e9;
+
+// Along one of the rays that the spans are of.
+vec3 radiance_along(RowSpans spans, vec3 from, vec3 direction, float cone) {
     CourtHit court = meet_court(from, direction);
-    const float kSky = 1e9;
     float court_at_m = court.distance > 0.0 ? court.distance : kSky;
-    SolidHit hit = trace_solids(from, direction, court_at_m, max(0.35 * cone, 2e-4));
+    SolidHit hit = trace_solids(spans, from, direction, court_at_m, max(0.35 * cone, 2e-4));
     float distance = hit.distance;
     bool on_solid = distance < court_at_m;
     if (distance == kSky) return sky_with_sun(direction);
@@ -174,7 +177,26 @@ vec3 radiance_along(vec3 from, vec3 direction, float cone) {
     vec3 lifted = point + normal * 0.006;
     float sun = dot(normal, to_sun) > 0.0 ? sun_over_walls(lifted, to_sun) * sun_past_solids(lifted, to_sun) : 0.0;
     float open = openness(point, normal) * court_openness(point);
-    if (!on_solid) return lit_court(court, point, direction, footprint_m, sun, open);
+
+    // The court is lit once: where it is seen, or where it stands in the solid's mirror, unshadowed by the solids.
+    vec3 look = direction;
+    vec3 court_point = point;
+    float court_footprint_m = footprint_m;
+    float court_sun = sun;
+    float court_open = open;
+    if (on_solid) {
+        look = reflect(direction, normal);
+        court = meet_court(lifted, look);
+        court_point = lifted + court.distance * look;
+        float roughness = solid.metallic_roughness.y;
+        court_footprint_m += (cone + 0.9 * roughness * roughness) * court.distance;
+        court_sun = sun_over_walls(court_point, to_sun);
+        court_open = court_openness(court_point);
+    }
+    vec3 beyond = court.distance > 0.0
+                      ? lit_court(court, court_point, look, court_footprint_m, court_sun, court_open)
+                      : sky_with_sun(look);
+    if (!on_solid) return beyond;
 
     Surface s;
     s.normal = normal;
@@ -182,34 +204,34 @@ vec3 radiance_along(vec3 from, vec3 direction, float cone) {
     s.metallic = solid.metallic_roughness.x;
     s.roughness = solid.metallic_roughness.y;
     vec3 to_eye = -direction;
-
-    // Look once along the mirrored ray: the court there, unshadowed by the solids, or the sky.
-    vec3 mirror = reflect(direction, normal);
-    CourtHit seen = meet_court(lifted, mirror);
-    vec3 mirrored = sky_with_sun(mirror);
-    if (seen.distance > 0.0) {
-        vec3 seen_point = lifted + seen.distance * mirror;
-        float blur = footprint_m + (cone + 0.9 * s.roughness * s.roughness) * seen.distance;
-        mirrored = lit_court(seen, seen_point, mirror, blur, sun_over_walls(seen_point, to_sun), court_openness(seen_point));
-    }
     // The court also sends light up and across: the floor's share of the hemisphere.
     vec3 ambient = ambient_light(normal) * open;
-    return ambient_reflected(s, to_eye, ambient, mirrored * mix(1.0, open, 0.7)) +
+    return ambient_reflected(s, to_eye, ambient, beyond * mix(1.0, open, 0.7)) +
            reflected(s, to_eye, to_sun) * lighting.sun_irradiance.rgb * sun;
 }
 
+// Through a point of the picture; its length is the distance to the picture's plane, which stands 1 m ahead.
+vec3 ray_through(vec2 at) {
+    return camera.ray_origin.xyz + at.x * camera.ray_per_px_x.xyz + at.y * camera.ray_per_px_y.xyz;
+}
+
 vec3 shade_sample(vec2 position_px, vec2 spacing_px) {
-    vec3 sum = vec3(0.0);
     float spread = kUseFootprint == 1u ? clamp(sqrt(spacing_px.x * spacing_px.y), 1.0, 64.0) : 1.0;
+    float px_x = length(camera.ray_per_px_x.xyz);
+    float px_y = length(camera.ray_per_px_y.xyz);
+    vec3 middle = ray_through(position_px);
+    // From the middle of a square to its corners, and a little more as the picture is flat.
+    float reach = kSamples == 1u ? 0.0 : 0.75 * spread * max(px_x, px_y) / length(middle);
+    RowSpans spans = row_spans(camera.eye.xyz, normalize(middle), reach);
+    vec3 sum = vec3(0.0);
     for (uint i = 0u; i < kSamples; ++i) {
         // Points of the R2 sequence around the position; one sample stands in the middle.
         vec2 offset = kSamples == 1u ? vec2(0.0) : fract(vec2(0.7548776662, 0.5698402910) * float(i) + 0.5) - 0.5;
-        vec2 at = position_px + offset * spread;
-        vec3 direction = camera.ray_origin.xyz + at.x * camera.ray_per_px_x.xyz + at.y * camera.ray_per_px_y.xyz;
+        vec3 direction = ray_through(position_px + offset * spread);
         float stretch = length(direction);
         // The angle that the sample spans shrinks away from the picture's centre.
-        float cone = spread * length(camera.ray_per_px_x.xyz) / (stretch * sqrt(stretch));
-        sum += tone_mapped(radiance_along(camera.eye.xyz, direction / stretch, cone));
+        float cone = spread * px_x / (stretch * sqrt(stretch));
+        sum += tone_mapped(radiance_along(spans, camera.eye.xyz, direction / stretch, cone));
     }
     return sum / float(kSamples);
 }

@@ -4,7 +4,7 @@
 #include "texel_list.glsl"
 
 void main() {
-    // Rows in twos; see pass_1.frag.
+    // Rows in twos; see pass_1_listed.frag.
     uint rows = 2u * ((list.count + (2u << list.log2_row) - 1u) >> (list.log2_row + 1u));
     const int kCorners[6] = int[](0, 1, 2, 2, 1, 3);
     int number = kCorners[gl_VertexIndex];

@@ -23,8 +23,9 @@ struct Pair {
 
 // Of one row of solids.
 struct Found {
-    float at_p, at_q;             // distances
-    float span_first, span_last;  // along the ray from q to p
+    float at_p, at_q;                 // distances
+    float span_first, span_last;      // along the ray from q to p
+    float bundle_first, bundle_last;  // along any ray of a bundle that holds it
 };
 
 constexpr int kRows = 3;
@@ -36,8 +37,9 @@ std::vector<Pair> random_pairs(int count) {
     };
     std::vector<Pair> pairs;
     for (int i = 0; i < count; ++i) {
-        const Vec4 q{between(-7, 7), between(0, 2.5), between(-5, 4), 0};
-        pairs.push_back({{q.x + between(-1, 1), q.y + between(-1, 1), q.z + between(-1, 1), 0}, q});
+        const Vec4 q{between(-7, 7), between(0, 2.5), between(-5, 4), between(-0.05, 0.05)};
+        pairs.push_back(
+            {{q.x + between(-1, 1), q.y + between(-1, 1), q.z + between(-1, 1), between(-0.05, 0.05)}, q});
     }
     return pairs;
 }
@@ -84,6 +86,25 @@ TEST(PrimitivesField, SolidsLieInTheirBoundsAndNoStepGoesThroughThem) {
     EXPECT_GT(inside, pairs.size() / 30);
     EXPECT_EQ(out_of_bounds, 0U);
     EXPECT_EQ(through, 0U);
+}
+
+TEST(PrimitivesField, NoRayOfABundleMeetsASolidBeforeTheBundleBegins) {
+    const std::vector<Pair> pairs = random_pairs(300000);
+    const std::vector<Found> found = on_device(pairs);
+    std::size_t met = 0, begun_late = 0, ended_early = 0, gained = 0;
+    for (std::size_t i = 0; i < found.size(); ++i) {
+        const Found& f = found[i];
+        if (f.at_p > 0) continue;
+        ++met;
+        const double apart_m = pairs[i / kRows].apart_m();
+        begun_late += f.bundle_first > apart_m + 1e-4;
+        ended_early += f.bundle_last < apart_m - 1e-4;
+        gained += f.at_q > 0.2 && f.bundle_first > f.span_first + 0.1F;
+    }
+    EXPECT_GT(met, pairs.size() / 30);
+    EXPECT_EQ(begun_late, 0U);
+    EXPECT_EQ(ended_early, 0U);
+    EXPECT_GT(gained, met / 20);
 }
 
 }  // namespace
