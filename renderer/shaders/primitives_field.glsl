@@ -257,7 +257,7 @@ vec2 bundle_span(int row, vec3 from, vec3 direction, float reach) {
         float width = reach * span.x;
         float free = row_field(row, from + span.x * direction) - width;
         span.x += max(free, 0.0);
-        worth_it = free > width;
+        worth_it = free > 0.25 * width;
     }
     return span;
 }

@@ -59,7 +59,8 @@ float nearest_miss(int row, vec3 from, vec3 to_sun) {
     const float kSunTangent = 0.035;
     vec2 span = row_span(row, from, to_sun, 0.1, 0.0);
     float share = 1.0;
-    float t = max(span.x, 0.02);
+    // Nearer, a ray only crawls out of the solid that it leaves.
+    float t = max(span.x, 0.06);
     vec2 step_m = vec2(0.015, 0.6) / step_effort;
     for (int i = 0; i < int(ceil(24.0 * step_effort)) && share > -1.0 && t < span.y; ++i) {
         float d = row_field(row, from + t * to_sun);
