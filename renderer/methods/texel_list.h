@@ -1,5 +1,5 @@
-// The needed texels of the left part of a reduced buffer, listed on the device, so that what shades them
-// takes one after another: where needed texels are strewn among others, devices that shade in blocks would
+// The needed texels in the first columns (or all) of a reduced buffer, listed on the device, so that what shades
+// them takes one after another: where needed texels are strewn among others, devices that shade in blocks would
 // waste most of a block.
 #pragma once
 

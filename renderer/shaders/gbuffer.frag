@@ -50,10 +50,10 @@ void main() {
 
     vec3 normal = normalize(normal_u.xyz);
 #ifdef TANGENTS
-    vec3 t = tangent().xyz;
-    t -= normal * dot(normal, t);
+    vec4 given = tangent();
+    vec3 t = given.xyz - normal * dot(normal, given.xyz);
     t *= inversesqrt(max(dot(t, t), 1e-12));
-    vec3 bitangent = cross(normal, t) * tangent().w;
+    vec3 bitangent = cross(normal, t) * given.w;
     vec3 sampled = texture(normal_map, position_in(2u)).xyz * 2.0 - 1.0;
     // Averaging normals in the smaller levels shortened them: what was lost there is roughness (Toksvig 2005).
     float shortness = clamp(dot(sampled, sampled), 0.04, 1.0);

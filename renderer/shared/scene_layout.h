@@ -10,7 +10,7 @@ SHARED_BEGIN
 // Bindings of set 0, the scene as shade_sample() reads it. Ray-marched scenes have the first two only.
 const uint kBindCamera = 0u;    // uniform, Camera
 const uint kBindLighting = 1u;  // uniform, Lighting
-const uint kBindGBuffer = 2u;   // usampler2D, see gbuffer.glsl
+const uint kBindGBuffer = 2u;   // usampler2D, see surface_packing.glsl
 const uint kBindDepth = 3u;     // sampler2D, reversed depth
 const uint kBindShadow = 4u;    // sampler2DShadow, the sun's map
 const uint kBindBlended = 5u;   // usampler2D, the nearest blended surface
