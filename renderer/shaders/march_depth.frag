@@ -10,7 +10,7 @@ layout(push_constant) uniform Push { vec2 pixels_per_texel; };
 
 void main() {
     vec2 at = gl_FragCoord.xy * pixels_per_texel;
-    vec3 ray = ray_through(at);
+    vec3 ray = ray_at(at);
     float stretch = length(ray);
     vec3 direction = ray / stretch;
     float court = meet_court(camera.eye.xyz, direction).distance;

@@ -17,6 +17,11 @@ layout(set = 0, binding = kBindLighting, std140) uniform LightingBlock { Lightin
 
 #include "lighting.glsl"
 
+// Through a point of the picture, 1 long along the view axis.
+vec3 ray_at(vec2 position_px) {
+    return camera.ray_origin.xyz + position_px.x * camera.ray_per_px_x.xyz + position_px.y * camera.ray_per_px_y.xyz;
+}
+
 #if defined(SCENE_MESHES)
 #include "shading_meshes.glsl"
 #elif defined(SCENE_PRIMITIVES)

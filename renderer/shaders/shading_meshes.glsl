@@ -99,10 +99,6 @@ vec3 tilted(vec3 normal, uint frame_word, vec3 tilt) {
     return normalize(tangent.xyz * tilt.x + bitangent * tilt.y + normal * tilt.z);
 }
 
-vec3 ray_at(vec2 position_px) {
-    return camera.ray_origin.xyz + position_px.x * camera.ray_per_px_x.xyz + position_px.y * camera.ray_per_px_y.xyz;
-}
-
 // Share of the sun that reaches a point: four bilinear looks at the map around it.
 float sun_visible(vec3 point, vec3 normal) {
     if (kSunShadow == 0u) return 1.0;

@@ -211,16 +211,11 @@ vec3 radiance_along(RowSpans spans, vec3 from, vec3 direction, float cone) {
            reflected(s, to_eye, to_sun) * lighting.sun_irradiance.rgb * sun;
 }
 
-// Through a point of the picture; its length is the distance to the picture's plane, which stands 1 m ahead.
-vec3 ray_through(vec2 at) {
-    return camera.ray_origin.xyz + at.x * camera.ray_per_px_x.xyz + at.y * camera.ray_per_px_y.xyz;
-}
-
 vec3 shade_sample(vec2 position_px, vec2 spacing_px) {
     float spread = kUseFootprint == 1u ? clamp(sqrt(spacing_px.x * spacing_px.y), 1.0, 64.0) : 1.0;
     float px_x = length(camera.ray_per_px_x.xyz);
     float px_y = length(camera.ray_per_px_y.xyz);
-    vec3 middle = ray_through(position_px);
+    vec3 middle = ray_at(position_px);
     // From the middle of a square to its corners, and a little more as the picture is flat.
     float reach = kSamples == 1u ? 0.0 : 0.75 * spread * max(px_x, px_y) / length(middle);
     RowSpans spans = row_spans(camera.eye.xyz, normalize(middle), reach);
@@ -228,7 +223,7 @@ vec3 shade_sample(vec2 position_px, vec2 spacing_px) {
     for (uint i = 0u; i < kSamples; ++i) {
         // Points of the R2 sequence around the position; one sample stands in the middle.
         vec2 offset = kSamples == 1u ? vec2(0.0) : fract(vec2(0.7548776662, 0.5698402910) * float(i) + 0.5) - 0.5;
-        vec3 direction = ray_through(position_px + offset * spread);
+        vec3 direction = ray_at(position_px + offset * spread);
         float stretch = length(direction);
         // The angle that the sample spans shrinks away from the picture's centre.
         float cone = spread * px_x / (stretch * sqrt(stretch));

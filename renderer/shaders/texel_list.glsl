@@ -1,4 +1,5 @@
-// The needed texels in the first columns (or all) of a reduced buffer, as a list. Define LIST_SET, and WRITE_LIST if it is being made.
+// The needed texels in the first columns (or all) of a reduced buffer, as a list. Define LIST_SET, and WRITE_LIST if it
+// is being made.
 #ifndef TEXEL_LIST_GLSL
 #define TEXEL_LIST_GLSL
 
