@@ -97,6 +97,7 @@ struct ScenePasses::Parts {
     bool ray_marched = false;
     SceneFeatures features;
     bool build_blended = false;
+    bool build_sun = false;
     bool build_shadow = false;
     bool build_emission = false;
     bool build_irradiance = false;
@@ -148,6 +149,7 @@ struct ScenePasses::Parts {
 
 void ScenePasses::Parts::build_meshes(const Scene& scene) {
     const bool all = options.force_everything;
+    build_sun = features.sun || all;
     build_shadow = features.sun_shadow || (all && features.sun);
     build_blended = features.alpha_blend || features.transmission || all;
     build_emission = features.emission || features.occlusion_maps || all;
@@ -313,6 +315,7 @@ void ScenePasses::Parts::describe(const Scene& scene) {
                                 " spot lamps cast shadows; drawn once"
                           : "",
              "no lamp casts a shadow");
+        note(build_sun, "sun", features.sun ? "the scene has one" : forced, "the scene has none");
         note(light_count > 0, "lamps",
              std::to_string(light_count) + ", of which a grid lists those that reach", "the scene has none");
     }
@@ -523,6 +526,7 @@ std::vector<ShaderConstant> ScenePasses::shading_constants() const {
     if (p.ray_marched) {
         constants.push_back({shared::kConstSamples, p.options.samples_per_sample});
     } else {
+        constants.push_back({shared::kConstSun, p.build_sun ? 1u : 0u});
         constants.push_back({shared::kConstSunShadow, p.build_shadow ? 1u : 0u});
         constants.push_back({shared::kConstBlend, p.build_blended ? 1u : 0u});
         constants.push_back({shared::kConstEmission, p.build_emission ? 1u : 0u});

@@ -17,6 +17,7 @@ layout(set = 0, binding = kBindSurfaces, std430) readonly buffer Surfaces { Surf
 layout(set = 0, binding = kBindColors) uniform sampler2DArray surface_colors;
 layout(set = 0, binding = kBindData) uniform sampler2DArray surface_data;
 
+layout(constant_id = kConstSun) const uint kSun = 1u;
 layout(constant_id = kConstSunShadow) const uint kSunShadow = 1u;
 layout(constant_id = kConstBlend) const uint kBlend = 1u;
 layout(constant_id = kConstEmission) const uint kEmission = 1u;
@@ -203,7 +204,7 @@ vec3 ambient_at(Surface s, vec3 point, vec3 to_eye, float occlusion) {
 vec3 lit(Sample s, vec3 point, vec3 to_eye) {
     vec3 to_sun = lighting.sun_direction.xyz;
     vec3 light = s.emitted;
-    if (dot(lighting.sun_irradiance.rgb, vec3(1.0)) > 0.0)
+    if (kSun == 1u)
         light += reflected(s.surface, to_eye, to_sun) * lighting.sun_irradiance.rgb *
                  sun_visible(point, s.surface.normal);
     light += lamp_light(s.surface, point, to_eye);

@@ -22,7 +22,9 @@ const uint kBindSurfaces = 10u;   // buffer, SurfaceMaterial[]: textures are rea
 const uint kBindColors = 11u;     // sampler2DArray, their textures of colour
 const uint kBindData = 12u;       // sampler2DArray, and those of numbers
 
-// Specialization constants of the shading shaders. Ids below 64 are free for the methods.
+// Specialization constants of the shading shaders. Ids below 64 are free for the methods. What a scene does not have is
+// never asked of a uniform: lavapipe works branches on uniforms into the shader anew at every draw, which takes
+// milliseconds.
 const uint kConstSunShadow = 64u;   // 1: the sun casts shadows
 const uint kConstBlend = 65u;       // 1: there are blended surfaces
 const uint kConstEmission = 66u;    // 1: the G-buffer's third and fourth words are there
@@ -33,6 +35,7 @@ const uint kConstSamples = 70u;     // ray-marched: samples of one shade_sample(
 const uint kConstLampShadow = 71u;  // 1: some lamps cast shadows
 const uint kConstLate = 72u;        // 1: textures are read for each sample
 const uint kConstLateUses = 73u;    // which textures any material has: bit n - 1 for kBind* n of set 1
+const uint kConstSun = 74u;         // 1: there is a sun
 
 // Material of a G-buffer or depth pipeline: set 1.
 const uint kBindMaterial = 0u;  // uniform, MaterialBlock
