@@ -160,9 +160,11 @@ KfrMethod::Pipelines KfrMethod::make_pipelines() const {
         if (setting_.culling && formats_.lists) made.listed_shading = make_graphics_pipeline(gpu_, listed);
     }
     if (setting_.internal_filter) {
-        made.filter =
-            make_graphics_pipeline(gpu_, masked_pass(shader_code::internal_filter, layouts_.filter.get(),
-                                                     formats_.reduced, setting_.culling));
+        GraphicsPipelineDescription filter = masked_pass(shader_code::internal_filter, layouts_.filter.get(),
+                                                         formats_.reduced, setting_.culling);
+        made.filter_u = make_graphics_pipeline(gpu_, filter);
+        filter.constants = {{0, 1}};
+        made.filter_v = make_graphics_pipeline(gpu_, filter);
     }
     const std::span<const std::uint32_t> resample =
         formats_.exact_bilinear ? std::span<const std::uint32_t>(shader_code::pass_2_exact)
@@ -292,28 +294,21 @@ void KfrMethod::record_listed_shading(const MethodFrame& frame) {
 void KfrMethod::record_internal_filter(VkCommandBuffer commands) {
     KfrTargets& t = targets_.front();
     const std::uint32_t first = side(t.buffer.width / 2);
-    const VkExtent2D extent{side(t.buffer.width) - first, side(t.buffer.height)};
-    const VkOffset2D offset{static_cast<std::int32_t>(first), 0};
-    image_barrier(commands, t.filtered, t.fresh ? kUseNone : kUseTransferSource, kUseColorTarget);
+    const VkRect2D peripheral{{static_cast<std::int32_t>(first), 0},
+                              {side(t.buffer.width) - first, side(t.buffer.height)}};
     const DepthTarget depth{.view = t.mask.view(), .read_only = true};
-    begin_rendering(commands, t.filtered.extent(), {ColorTarget{.view = t.filtered.view(), .clear = t.fresh}},
-                    setting_.culling ? &depth : nullptr);
-    const VkRect2D scissor{offset, extent};
-    vkCmdSetScissor(commands, 0, 1, &scissor);
-    draw_fullscreen(commands, now_->filter.get(), layouts_.filter.get(), std::array{t.reduced_set.get()});
-    vkCmdEndRendering(commands);
-
-    image_barrier(commands, t.filtered, kUseColorTarget, kUseTransferSource);
-    image_barrier(commands, t.reduced, kUseSampled, kUseTransferTarget);
-    VkImageCopy copy{};
-    copy.srcSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
-    copy.dstSubresource = copy.srcSubresource;
-    copy.srcOffset = {offset.x, offset.y, 0};
-    copy.dstOffset = copy.srcOffset;
-    copy.extent = {extent.width, extent.height, 1};
-    vkCmdCopyImage(commands, t.filtered.get(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, t.reduced.get(),
-                   VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &copy);
-    image_barrier(commands, t.reduced, kUseTransferTarget, kUseSampled);
+    const auto filter = [&](VkPipeline pipeline, const DescriptorSet& from, const ColorTarget& to) {
+        begin_rendering(commands, t.reduced.extent(), {to}, setting_.culling ? &depth : nullptr);
+        vkCmdSetScissor(commands, 0, 1, &peripheral);
+        draw_fullscreen(commands, pipeline, layouts_.filter.get(), std::array{from.get()});
+        vkCmdEndRendering(commands);
+    };
+    image_barrier(commands, t.filtered_u, t.fresh ? kUseNone : kUseSampled, kUseColorTarget);
+    filter(now_->filter_u.get(), t.reduced_set, {.view = t.filtered_u.view(), .clear = t.fresh});
+    image_barrier(commands, t.filtered_u, kUseColorTarget, kUseSampled);
+    image_barrier(commands, t.reduced, kUseSampled, kUseColorTarget);
+    filter(now_->filter_v.get(), t.filtered_u_set, {.view = t.reduced.view()});
+    image_barrier(commands, t.reduced, kUseColorTarget, kUseSampled);
 }
 
 void KfrMethod::record_resampling(const MethodFrame& frame, const GpuImage& target) {

@@ -32,7 +32,8 @@ class KfrMethod : public FoveationMethod {
         OwnedPipeline mask;
         OwnedPipeline shading;
         OwnedPipeline listed_shading;
-        OwnedPipeline filter;
+        OwnedPipeline filter_u;
+        OwnedPipeline filter_v;
         OwnedPipeline resample;
         OwnedPipeline post;
         OwnedPipeline inset;

@@ -38,6 +38,7 @@ KfrTargets::KfrTargets(Gpu& gpu, const KfrFormats& formats, const TexelList::Mak
       map_set(gpu, {kMapBinding}),
       listed_set(gpu, {TexelList::kHeaderBinding, TexelList::kListBinding, kReduced}),
       reduced_set(gpu, {kFirstImage}),
+      filtered_u_set(gpu, {kFirstImage}),
       resample_set(gpu, {kMapBinding, kSecondImage}),
       post_set(gpu, {kMapBinding, kSecondImage}) {
     const VkImageUsageFlags drawn = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
@@ -45,7 +46,8 @@ KfrTargets::KfrTargets(Gpu& gpu, const KfrFormats& formats, const TexelList::Mak
                        drawn | VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT |
                            (formats.lists ? VK_IMAGE_USAGE_STORAGE_BIT : 0));
     if (setting.internal_filter) {
-        filtered = image_of(gpu, buffer, formats.reduced, drawn | VK_IMAGE_USAGE_TRANSFER_SRC_BIT);
+        filtered_u = image_of(gpu, buffer, formats.reduced, drawn | VK_IMAGE_USAGE_SAMPLED_BIT);
+        filtered_u_set.set_sampled_image(0, filtered_u.view(), sampler.get());
     }
     if (setting.culling || formats.in_compute) {
         mask = image_of(gpu, buffer, kKfrMaskFormat,

@@ -59,15 +59,16 @@ class KfrTargets {
     std::uint32_t listed_columns = 0;  // whose needed texels are listed
     std::optional<TexelList> listed;
     GpuImage reduced;        // what Pass I shades and Pass II reads
-    GpuImage filtered;       // the internal filter's result, then copied to `reduced`
+    GpuImage filtered_u;     // `reduced` after the first half of the internal filter
     GpuImage screen_linear;  // Pass II's result for the post filter
     SampleCounter counts;    // 0: texels needed, 1: pixels of the inset
     OwnedSampler sampler;
-    DescriptorSet map_set;       // 0: map
-    DescriptorSet listed_set;    // 0 and 1: listed, 2: reduced
-    DescriptorSet reduced_set;   // 0: reduced
-    DescriptorSet resample_set;  // 0: map, 1: reduced
-    DescriptorSet post_set;      // 0: map, 1: screen_linear
+    DescriptorSet map_set;         // 0: map
+    DescriptorSet listed_set;      // 0 and 1: listed, 2: reduced
+    DescriptorSet reduced_set;     // 0: reduced
+    DescriptorSet filtered_u_set;  // 0: filtered_u
+    DescriptorSet resample_set;    // 0: map, 1: reduced
+    DescriptorSet post_set;        // 0: map, 1: screen_linear
 
   private:
     std::uint32_t strewn_columns() const;
