@@ -20,20 +20,21 @@ constexpr ResourceUse kUseHeader{
 // Whatever it held is of no interest.
 constexpr ResourceUse kUseOldList{kUseSampled.stages, kUseSampled.accesses, VK_IMAGE_LAYOUT_UNDEFINED};
 
-// A row of the list's image holds a power of two; about as many as there are rows.
-std::uint32_t log2_row(std::uint64_t texels) {
-    std::uint32_t log2 = 2;
-    while ((std::uint64_t{1} << (2 * log2)) < texels) ++log2;
+// The list's image has as few rows as the device's width allows: software devices hand tiles of 64 x 64 to
+// their processors, and so none is left alone with a full one at the end.
+std::uint32_t log2_rows(const Gpu& gpu, std::uint64_t texels) {
+    std::uint32_t log2 = 3;
+    while ((texels >> log2) + 4 > gpu.limits().maxImageDimension2D) ++log2;
     return log2;
 }
 
 GpuImage list_image(Gpu& gpu, std::uint64_t texels) {
-    const std::uint32_t width = 1u << log2_row(texels);
-    // Rows in twos; see pass_1_listed.frag.
-    const std::uint64_t pairs_of_rows = (texels + 2 * width - 1) / (2 * width);
+    const std::uint32_t rows = 1u << log2_rows(gpu, texels);
+    // Columns in fours; see pass_1_listed.frag.
+    const std::uint64_t fours_of_columns = (texels + 4 * rows - 1) / (4 * rows);
     return GpuImage(gpu, {.format = VK_FORMAT_R32_UINT,
-                          .width = width,
-                          .height = static_cast<std::uint32_t>(2 * pairs_of_rows),
+                          .width = static_cast<std::uint32_t>(4 * fours_of_columns),
+                          .height = rows,
                           .usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT});
 }
 
@@ -76,8 +77,8 @@ TexelList::TexelList(Gpu& gpu, const Maker& maker, const GpuImage& mask, std::ui
     header.groups_z = 1;
     header.width = columns;
     header.height = height_;
-    header.log2_row = log2_row(std::uint64_t{columns} * height_);
-    header.image_height = listed_.extent().height;
+    header.log2_rows = log2_rows(gpu, std::uint64_t{columns} * height_);
+    header.image_width = listed_.extent().width;
     upload(gpu, header_, std::as_bytes(std::span(&header, 1)));
     set_.set_buffer(0, header_);
     set_.set_storage_image(1, listed_.view());

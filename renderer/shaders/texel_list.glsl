@@ -23,7 +23,7 @@ layout(set = LIST_SET, binding = 1) uniform usampler2D listed;
 #endif
 
 // Where in the list's image the entry of a texel stands: column | row << 16.
-ivec2 entry_at(uint index) { return ivec2(index & ((1u << list.log2_row) - 1u), index >> list.log2_row); }
+ivec2 entry_at(uint index) { return ivec2(index >> list.log2_rows, index & ((1u << list.log2_rows) - 1u)); }
 
 #ifndef WRITE_LIST
 ivec2 listed_texel(uint index) {

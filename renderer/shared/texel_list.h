@@ -19,8 +19,8 @@ struct TexelListHeader {
     uint count;
     uint width;  // of the part of the reduced buffer
     uint height;
-    uint log2_row;      // of the list's image: a row of it holds 2^log2_row texels ...
-    uint image_height;  // ... and there are so many
+    uint log2_rows;    // the list's image has 2^log2_rows rows ...
+    uint image_width;  // ... of so many texels
 };
 
 SHARED_END
