@@ -1,6 +1,7 @@
 // Makes the list of texels with three compute shaders.
 #include "renderer/methods/texel_list.h"
 
+#include <bit>
 #include <cstddef>
 #include <span>
 
@@ -20,16 +21,11 @@ constexpr ResourceUse kUseHeader{
 // Whatever it held is of no interest.
 constexpr ResourceUse kUseOldList{kUseSampled.stages, kUseSampled.accesses, VK_IMAGE_LAYOUT_UNDEFINED};
 
-// The list's image has as few rows as the device's width allows: software devices hand tiles of 64 x 64 to
-// their processors, and so none is left alone with a full one at the end.
-std::uint32_t log2_rows(const Gpu& gpu, std::uint64_t texels) {
-    std::uint32_t log2 = 3;
-    while ((texels >> log2) + 4 > gpu.limits().maxImageDimension2D) ++log2;
-    return log2;
-}
-
+// As few rows as the device's width allows: software devices hand tiles of 64 x 64 to their processors, and
+// so none is left alone with a full one at the end.
 GpuImage list_image(Gpu& gpu, std::uint64_t texels) {
-    const std::uint32_t rows = 1u << log2_rows(gpu, texels);
+    std::uint32_t rows = 8;
+    while (texels / rows + 4 > gpu.limits().maxImageDimension2D) rows *= 2;
     // Columns in fours; see pass_1_listed.frag.
     const std::uint64_t fours_of_columns = (texels + 4 * rows - 1) / (4 * rows);
     return GpuImage(gpu, {.format = VK_FORMAT_R32_UINT,
@@ -77,7 +73,7 @@ TexelList::TexelList(Gpu& gpu, const Maker& maker, const GpuImage& mask, std::ui
     header.groups_z = 1;
     header.width = columns;
     header.height = height_;
-    header.log2_rows = log2_rows(gpu, std::uint64_t{columns} * height_);
+    header.log2_rows = static_cast<std::uint32_t>(std::countr_zero(listed_.extent().height));
     header.image_width = listed_.extent().width;
     upload(gpu, header_, std::as_bytes(std::span(&header, 1)));
     set_.set_buffer(0, header_);

@@ -83,8 +83,9 @@ TEST(KfrMethod, PictureIsBitByBitTheSameWithAndWithoutCulling) {
                 const Image with = culled.draw(kfr(c.numbers, c.words), c.gaze, c.jitter);
                 c.numbers["culling"] = 0;
                 const Image without = whole.draw(kfr(c.numbers, c.words), c.gaze, c.jitter);
-                EXPECT_TRUE(with == without) << size.width << "x" << size.height << " gaze " << c.gaze.x
-                                             << ", " << c.gaze.y << " filter " << filter << " case " << &c - &cases.front();
+                EXPECT_TRUE(with == without)
+                    << size.width << "x" << size.height << " gaze " << c.gaze.x << ", " << c.gaze.y
+                    << " filter " << filter << " case " << &c - &cases.front();
                 EXPECT_LE(culled.statistics().shaded_samples, whole.statistics().shaded_samples);
             }
         }
