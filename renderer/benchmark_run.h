@@ -1,5 +1,6 @@
 // Measures methods against full resolution: every method of a scene and size takes its turn in every round of
-// one run, so that a machine whose speed drifts is fair to all. Meng et al. 2018, Tables 2 and 3.
+// one run, and faster ones draw several frames in theirs, so that a machine whose speed drifts is fair to
+// all. Meng et al. 2018, Tables 2 and 3.
 #pragma once
 
 #include <cstdint>

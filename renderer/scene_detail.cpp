@@ -25,9 +25,7 @@ constexpr std::size_t kFewestTriangles = 48;
 // A level is worth its memory if it has at most this share of the triangles of the one before.
 constexpr double kWorthwhile = 0.8;
 // The first level's error as a share of the piece's radius, and how errors grow from level to level.
-constexpr float kFirstError = 1.0f / 1024, kErrorGrowth = 1.7f, kLargestError = 0.25f;
-// A piece that is not simpler at this error is left as it is.
-constexpr float kHopelessError = 1.0f / 64;
+constexpr float kFirstError = 1.0f / 1024, kErrorGrowth = 1.35f, kLargestError = 0.6f;
 
 using Triangle = std::array<std::uint32_t, 3>;
 
@@ -218,8 +216,6 @@ std::vector<SimplerLevel> simpler_levels(const WorkingPiece& piece, float radius
         const std::vector<std::uint32_t>& from = levels.empty() ? piece.indices : levels.back().indices;
         SimplerLevel level{simplified(piece, from, error * radius), 0};
         const bool fewer = !level.indices.empty() && worthwhile(level.indices.size(), last_count);
-        // Leaves and the like, that nothing makes simpler.
-        if (!fewer && levels.empty() && error > kHopelessError) break;
         if (!fewer) continue;
         level.error_m = deviation(piece, level.indices);
         if (level.error_m > kLargestError * radius) break;

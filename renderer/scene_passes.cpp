@@ -397,9 +397,8 @@ void ScenePasses::Parts::find_visible(const CameraView& view) {
 void ScenePasses::Parts::record_layer(VkCommandBuffer commands, bool blended_layer) {
     const GpuImage& words = blended_layer ? blended : gbuffer;
     const DepthTarget depth_target{(blended_layer ? blended_depth : depth).view(), true, 0.0f, false};
-    // A surface at the border looks at its neighbours' normals, so that the G-buffer is cleared even where
-    // nothing is drawn. Blended words are read only where blended depth tells of them.
-    const ColorTarget words_target{words.view(), !blended_layer, blended_layer, {}};
+    // Words are read only where depth tells of them.
+    const ColorTarget words_target{.view = words.view(), .discard = true};
     begin_rendering(commands, words.extent(), {words_target}, &depth_target);
     resources->bind_geometry(commands);
     VkPipeline bound_pipeline = VK_NULL_HANDLE;

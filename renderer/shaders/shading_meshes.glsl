@@ -211,13 +211,19 @@ vec3 lit(Sample s, vec3 point, vec3 to_eye) {
     return light + ambient_at(s.surface, point, to_eye, s.occlusion);
 }
 
+// Nothing clears the G-buffer: what it holds where there is no surface, at depth 0, is of no interest.
+uvec4 gbuffer_words(ivec2 at) {
+    uvec4 words = texelFetch(gbuffer, at, 0);
+    return texelFetch(depth_image, at, 0).r > 0.0 ? words : uvec4(0u);
+}
+
 // Highlights narrower than the sample are widened to it: the spread of the normals around becomes roughness
 // (Kaplanyan et al. 2016, "Filtering Distributions of Normals for Shading Antialiasing").
 float widened_roughness(float roughness, vec3 normal, ivec2 at, float reach_px) {
     ivec2 most = ivec2(camera.ray_per_px_x.w, camera.ray_per_px_y.w) - 1;
     int reach = max(int(0.5 * reach_px + 0.5), 1);
-    vec3 dx = unpacked_normal(texelFetch(gbuffer, clamp(at + ivec2(reach, 0), ivec2(0), most), 0).x) - normal;
-    vec3 dy = unpacked_normal(texelFetch(gbuffer, clamp(at + ivec2(0, reach), ivec2(0), most), 0).x) - normal;
+    vec3 dx = unpacked_normal(gbuffer_words(clamp(at + ivec2(reach, 0), ivec2(0), most)).x) - normal;
+    vec3 dy = unpacked_normal(gbuffer_words(clamp(at + ivec2(0, reach), ivec2(0), most)).x) - normal;
     float spread = dot(dx, dx) + dot(dy, dy);
     float alpha = roughness * roughness;
     return sqrt(sqrt(clamp(alpha * alpha + min(0.5 * spread, 0.18), 0.0, 1.0)));
@@ -254,7 +260,7 @@ vec3 shade_sample(vec2 position_px, vec2 spacing_px) {
     }
 
     // Read the textures of what lies behind.
-    uvec4 behind_words = texelFetch(gbuffer, behind_at, 0);
+    uvec4 behind_words = gbuffer_words(behind_at);
     Sample behind;
     vec3 tilt = vec3(0.0, 0.0, 1.0);
     if (kLate == 1u) behind = late_sample(behind_words, reach_px, tilt);
