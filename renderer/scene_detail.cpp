@@ -24,8 +24,9 @@ constexpr std::size_t kPieceTriangles = 1200;
 constexpr std::size_t kFewestTriangles = 48;
 // A level is worth its memory if it has at most this share of the triangles of the one before.
 constexpr double kWorthwhile = 0.8;
-// The first level's error as a share of the piece's radius, and how errors grow from level to level.
-constexpr float kFirstError = 1.0f / 1024, kErrorGrowth = 1.35f, kLargestError = 0.6f;
+// The first level's error as a share of the piece's radius, how errors grow from level to level, and the
+// largest, beyond which a lamp's ball would lose much of its area and so of its light.
+constexpr float kFirstError = 1.0f / 1024, kErrorGrowth = 1.35f, kLargestError = 0.125f;
 
 using Triangle = std::array<std::uint32_t, 3>;
 
