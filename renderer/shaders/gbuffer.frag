@@ -2,6 +2,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "../shared/scene_layout.h"
+#include "averaged_normal.glsl"
 #include "gbuffer_inputs.glsl"
 #include "surface_packing.glsl"
 
@@ -55,11 +56,7 @@ void main() {
     t *= inversesqrt(max(dot(t, t), 1e-12));
     vec3 bitangent = cross(normal, t) * given.w;
     vec3 sampled = texture(normal_map, position_in(2u)).xyz * 2.0 - 1.0;
-    // Averaging normals in the smaller levels shortened them: what was lost there is roughness (Toksvig 2005).
-    float shortness = clamp(dot(sampled, sampled), 0.04, 1.0);
-    float alpha = roughness * roughness;
-    float variance = (1.0 - sqrt(shortness)) / sqrt(shortness);
-    roughness = sqrt(sqrt(clamp(alpha * alpha + min(2.0 * variance, 0.3), 0.0, 1.0)));
+    roughness = toksvig_roughness(roughness, sampled);
     sampled.xy *= material.emissive.w;
     normal = normalize(t * sampled.x + bitangent * sampled.y + normal * sampled.z);
 #endif

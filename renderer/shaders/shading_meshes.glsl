@@ -2,6 +2,7 @@
 #ifndef SHADING_MESHES_GLSL
 #define SHADING_MESHES_GLSL
 
+#include "averaged_normal.glsl"
 #include "surface_packing.glsl"
 
 layout(set = 0, binding = kBindGBuffer) uniform usampler2D gbuffer;
@@ -47,14 +48,6 @@ Sample sample_of(uvec4 words) {
 }
 
 bool any_has(uint texture_binding) { return (kLateUses & (1u << (texture_binding - 1u))) != 0u; }
-
-// Roughness widened by what averaging took from a normal's length (Toksvig 2005).
-float toksvig_roughness(float roughness, vec3 averaged) {
-    float shortness = clamp(dot(averaged, averaged), 0.04, 1.0);
-    float alpha = roughness * roughness;
-    float variance = (1.0 - sqrt(shortness)) / sqrt(shortness);
-    return sqrt(sqrt(clamp(alpha * alpha + min(2.0 * variance, 0.3), 0.0, 1.0)));
-}
 
 // The surface whose textures the G-buffer left to be read here, filtered over reach_px. Its normal is still the
 // geometry's; frame_word and `tilt` (the averaged normal in tangent space) give the textured one.
