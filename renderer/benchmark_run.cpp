@@ -5,6 +5,7 @@
 #include <cassert>
 #include <chrono>
 #include <cmath>
+#include <utility>
 
 #include "renderer/scene_catalog.h"
 
@@ -37,6 +38,19 @@ PointPx gaze_of_frame(SizePx size, int frame, bool moving) {
     PointPx gaze = centre_of(size);
     if (moving) gaze.x += (frame % 2 == 0 ? 1 : -1) * (1 + frame / 2);
     return gaze;
+}
+
+struct TimedFrame {
+    double ms = 0;  // from the call to the finished picture, not read back
+    FrameStatistics statistics;
+};
+
+TimedFrame timed_frame(FrameRenderer& renderer, SizePx size, const CameraView& view,
+                       const RenderMethod& method, PointPx gaze) {
+    using Clock = std::chrono::steady_clock;
+    const Clock::time_point start = Clock::now();
+    FrameStatistics statistics = renderer.render(size, view, method, gaze, false).statistics;
+    return {std::chrono::duration<double, std::milli>(Clock::now() - start).count(), std::move(statistics)};
 }
 
 BenchmarkRow row_of(const Measured& measured) {
@@ -102,7 +116,6 @@ std::vector<BenchmarkMethod> standard_benchmark_methods() {
 
 std::vector<BenchmarkRow> run_benchmark(Gpu& gpu, const BenchmarkPlan& plan,
                                         const std::function<void(double, const std::string&)>& progress) {
-    using Clock = std::chrono::steady_clock;
     assert(plan.warm_up_rounds >= 1 && plan.rounds >= 1);
     std::vector<BenchmarkMethod> methods{{"full resolution", {}}};
     methods.insert(methods.end(), plan.methods.begin(), plan.methods.end());
@@ -118,8 +131,8 @@ std::vector<BenchmarkRow> run_benchmark(Gpu& gpu, const BenchmarkPlan& plan,
         for (const SizePx size : plan.sizes) {
             const CameraView view = view_through(scene.cameras.front(), size);
             std::vector<Measured> measured(methods.size());
-            double full_ms = 0;
             for (int round = 0; round < rounds; ++round) {
+                double full_ms = 0;
                 for (std::size_t m = 0; m < methods.size(); ++m) {
                     if (progress) {
                         progress(taken / turns, scene_name + " " + std::to_string(size.width) + "x" +
@@ -128,13 +141,11 @@ std::vector<BenchmarkRow> run_benchmark(Gpu& gpu, const BenchmarkPlan& plan,
                     double ms = 0;
                     for (int i = 0; i < measured[m].in_one_turn; ++i) {
                         const PointPx gaze = gaze_of_frame(size, measured[m].drawn++, plan.moving_gaze);
-                        const Clock::time_point start = Clock::now();
-                        const RenderedFrame frame =
-                            renderer.render(size, view, methods[m].method, gaze, false);
-                        ms = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+                        TimedFrame frame = timed_frame(renderer, size, view, methods[m].method, gaze);
+                        ms = frame.ms;
                         if (round < plan.warm_up_rounds) continue;
                         measured[m].frame_ms.push_back(ms);
-                        measured[m].frames.push_back(frame.statistics);
+                        measured[m].frames.push_back(std::move(frame.statistics));
                     }
                     if (m == 0) full_ms = ms;
                     measured[m].in_one_turn =
@@ -159,7 +170,6 @@ std::vector<BenchmarkRow> run_benchmark(Gpu& gpu, const BenchmarkPlan& plan,
 
 std::vector<NeedsRow> measure_needs(Gpu& gpu, const BenchmarkPlan& plan,
                                     const std::function<void(double, const std::string&)>& progress) {
-    using Clock = std::chrono::steady_clock;
     assert(plan.warm_up_rounds >= 1 && plan.rounds >= 1 && !plan.sizes.empty());
     std::vector<NeedsRow> rows;
     for (const std::string& scene_name : plan.scenes) {
@@ -179,12 +189,9 @@ std::vector<NeedsRow> measure_needs(Gpu& gpu, const BenchmarkPlan& plan,
             FrameRenderer renderer(gpu, scene, options);
             std::vector<double> frame_ms;
             for (int round = 0; round < plan.warm_up_rounds + plan.rounds; ++round) {
-                const Clock::time_point start = Clock::now();
-                const RenderedFrame frame =
-                    renderer.render(row.size, view, RenderMethod{}, centre_of(row.size), false);
-                const double ms = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-                if (round >= plan.warm_up_rounds) frame_ms.push_back(ms);
-                row.left_out = frame.statistics.left_out;
+                TimedFrame frame = timed_frame(renderer, row.size, view, RenderMethod{}, centre_of(row.size));
+                if (round >= plan.warm_up_rounds) frame_ms.push_back(frame.ms);
+                row.left_out = std::move(frame.statistics.left_out);
             }
             return quantile(frame_ms, 0.5);
         };

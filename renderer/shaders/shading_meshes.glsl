@@ -204,19 +204,26 @@ vec3 lit(Sample s, vec3 point, vec3 to_eye) {
     return light + ambient_at(s.surface, point, to_eye, s.occlusion);
 }
 
+float depth_at(ivec2 at) { return texelFetch(depth_image, at, 0).r; }
+
 // Nothing clears the G-buffer: what it holds where there is no surface, at depth 0, is of no interest.
-uvec4 gbuffer_words(ivec2 at) {
+uvec4 gbuffer_words(ivec2 at, float depth) {
     uvec4 words = texelFetch(gbuffer, at, 0);
-    return texelFetch(depth_image, at, 0).r > 0.0 ? words : uvec4(0u);
+    return depth > 0.0 ? words : uvec4(0u);
+}
+
+vec3 normal_beside(ivec2 at) {
+    ivec2 most = ivec2(camera.ray_per_px_x.w, camera.ray_per_px_y.w) - 1;
+    ivec2 inside = clamp(at, ivec2(0), most);
+    return unpacked_normal(gbuffer_words(inside, depth_at(inside)).x);
 }
 
 // Highlights narrower than the sample are widened to it: the spread of the normals around becomes roughness
 // (Kaplanyan et al. 2016, "Filtering Distributions of Normals for Shading Antialiasing").
 float widened_roughness(float roughness, vec3 normal, ivec2 at, float reach_px) {
-    ivec2 most = ivec2(camera.ray_per_px_x.w, camera.ray_per_px_y.w) - 1;
     int reach = max(int(0.5 * reach_px + 0.5), 1);
-    vec3 dx = unpacked_normal(gbuffer_words(clamp(at + ivec2(reach, 0), ivec2(0), most)).x) - normal;
-    vec3 dy = unpacked_normal(gbuffer_words(clamp(at + ivec2(0, reach), ivec2(0), most)).x) - normal;
+    vec3 dx = normal_beside(at + ivec2(reach, 0)) - normal;
+    vec3 dy = normal_beside(at + ivec2(0, reach)) - normal;
     float spread = dot(dx, dx) + dot(dy, dy);
     float alpha = roughness * roughness;
     return sqrt(sqrt(clamp(alpha * alpha + min(0.5 * spread, 0.18), 0.0, 1.0)));
@@ -234,7 +241,7 @@ vec3 shade_sample(vec2 position_px, vec2 spacing_px) {
     ivec2 behind_at = at;
     if (kBlend == 1u) {
         glass_depth = texelFetch(blended_depth, at, 0).r;
-        if (glass_depth > texelFetch(depth_image, at, 0).r) {
+        if (glass_depth > depth_at(at)) {
             glass_words = texelFetch(blended, at, 0);
             glass = bytes_of(glass_words.w);
             if (glass.z > 0.0) {
@@ -245,7 +252,7 @@ vec3 shade_sample(vec2 position_px, vec2 spacing_px) {
                 float bend = 2.0 * glass.w / (1.0 + 2.0 * glass.w);
                 float reach = 0.06 * bend * glass_depth / (camera.eye.w * length(camera.ray_per_px_x.xyz));
                 ivec2 bent = clamp(at - ivec2(aside * min(reach, 60.0)), ivec2(0), most);
-                if (texelFetch(depth_image, bent, 0).r < glass_depth) behind_at = bent;
+                if (depth_at(bent) < glass_depth) behind_at = bent;
             }
         } else {
             glass_depth = 0.0;
@@ -253,7 +260,8 @@ vec3 shade_sample(vec2 position_px, vec2 spacing_px) {
     }
 
     // Read the textures of what lies behind.
-    uvec4 behind_words = gbuffer_words(behind_at);
+    float behind_depth = depth_at(behind_at);
+    uvec4 behind_words = gbuffer_words(behind_at, behind_depth);
     Sample behind;
     vec3 tilt = vec3(0.0, 0.0, 1.0);
     if (kLate == 1u) behind = late_sample(behind_words, reach_px, tilt);
@@ -267,7 +275,7 @@ vec3 shade_sample(vec2 position_px, vec2 spacing_px) {
     do {
         bool front = layer == 1u;
         ivec2 here = front ? at : behind_at;
-        float depth = front ? glass_depth : texelFetch(depth_image, behind_at, 0).r;
+        float depth = front ? glass_depth : behind_depth;
         uvec4 words = front ? glass_words : behind_words;
         vec3 ray = ray_at(vec2(here) + 0.5);
         vec3 point = camera.eye.xyz + ray * (camera.eye.w / max(depth, 1e-7));
