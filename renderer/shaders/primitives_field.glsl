@@ -246,20 +246,34 @@ vec2 row_span(int row, vec3 from, vec3 direction, float margin, float reach) {
     return span;
 }
 
-// row_span() of a bundle of rays, begun where the first of them may meet a solid: the bundle is marched as one ("cone
-// marching"), which serves all its rays. A single ray, of no reach, has nothing to share.
-vec2 bundle_span(int row, vec3 from, vec3 direction, float reach) {
+// Where the rays of a bundle may meet the solids of a row. They march as one ("cone marching") to `at`, along the middle
+// ray; around the point there no solid is nearer than `free`. All have passed the row at `last`.
+struct BundleSpan {
+    float at;
+    float free;
+    float last;
+};
+
+// `reach` as row_span() takes it. A single ray, of no reach, has nothing to share.
+BundleSpan bundle_span(int row, vec3 from, vec3 direction, float reach) {
     vec2 span = row_span(row, from, direction, 0.0, reach);
-    if (reach == 0.0) return span;
+    BundleSpan bundle = BundleSpan(span.x, 0.0, span.y);
+    if (reach == 0.0) return bundle;
     bool worth_it = true;
     for (int turn = 0; turn < 24 && worth_it && span.x < span.y; ++turn) {
-        // Around a point of the middle ray no solid is nearer than its distance; the others pass that point within reach * t.
+        bundle.at = span.x;
+        bundle.free = row_field(row, from + span.x * direction);
         float width = reach * span.x;
-        float free = row_field(row, from + span.x * direction) - width;
-        span.x += max(free, 0.0);
-        worth_it = free > 0.25 * width;
+        span.x += max(bundle.free - width, 0.0);
+        // Where the free sphere is hardly wider than the bundle, its rays go on alone.
+        worth_it = bundle.free > 1.25 * width;
     }
-    return span;
+    return bundle;
+}
+
+// The stretch in which a ray of the bundle may meet solids; `apart`: between its unit vector and the middle one.
+vec2 ray_span(BundleSpan bundle, float apart) {
+    return vec2(bundle.at + max(bundle.free - apart * bundle.at, 0.0), bundle.last);
 }
 
 #endif

@@ -19,8 +19,11 @@ layout(set = 0, binding = 1, std430) writeonly buffer Results { Found results[];
 Found result(int row, vec3 p, vec3 q, vec2 turn) {
     vec3 direction = normalize(p - q);
     vec3 middle = normalize(direction + vec3(turn, 0.0));
+    float apart = distance(direction, middle);
+    // A wider bundle, so that the ray is not at its edge.
+    BundleSpan bundle = bundle_span(row, q, middle, 1.2 * apart);
     return Found(row_field(row, p), row_field(row, q), row_span(row, q, direction, 0.0, 0.0),
-                 bundle_span(row, q, middle, distance(direction, middle)));
+                 ray_span(bundle, apart));
 }
 
 void main() {
