@@ -22,6 +22,12 @@ namespace {
 const ResourceUse kUseUniform{VK_PIPELINE_STAGE_2_ALL_GRAPHICS_BIT | VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
                               VK_ACCESS_2_UNIFORM_READ_BIT, VK_IMAGE_LAYOUT_UNDEFINED};
 
+const ResourceUse kUseInstances{VK_PIPELINE_STAGE_2_VERTEX_INPUT_BIT, VK_ACCESS_2_VERTEX_ATTRIBUTE_READ_BIT,
+                                VK_IMAGE_LAYOUT_UNDEFINED};
+
+// What one vkCmdUpdateBuffer() may write.
+constexpr VkDeviceSize kMostUpdate = 65536;
+
 constexpr const char* kKept = "drawing geometry again";
 constexpr const char* kLevels = "levels of detail";
 
@@ -64,7 +70,28 @@ struct VisiblePiece {
     std::size_t instance = 0;
     std::uint32_t first_index = 0;
     std::uint32_t index_count = 0;
+    bool mirrored = false;
 };
+
+// Neighbours in the list of what is in view that one draw call draws: the same piece in the same level of detail.
+struct PieceDraw {
+    std::uint32_t first = 0;
+    std::uint32_t count = 0;
+};
+
+shared::vec4 packed(glm::vec3 v, float w) {
+    return {v.x, v.y, v.z, w};
+}
+
+shared::InstanceRecord record_of(const DrawInstance& instance, const glm::mat4& clip_from_world) {
+    shared::InstanceRecord record{};
+    const glm::mat4 clip_from_mesh = clip_from_world * instance.world_from_mesh;
+    std::memcpy(record.clip_from_mesh.columns, &clip_from_mesh, sizeof clip_from_mesh);
+    record.normal_x = packed(instance.world_from_normal[0], instance.mirrored ? -1.0f : 1.0f);
+    record.normal_y = packed(instance.world_from_normal[1], 0);
+    record.normal_z = packed(instance.world_from_normal[2], 0);
+    return record;
+}
 
 // How many pixels at most a metre covers, anywhere in a box. A flat picture stretches what lies off its axis.
 float px_per_m(const Bounds& box, const CameraView& view, const glm::mat4& eye_from_world, SizePx size) {
@@ -122,6 +149,8 @@ struct ScenePasses::Parts {
     OwnedSampler nearest, shadow_sampler, linear, trilinear;
     DescriptorSet set;
     std::vector<VisiblePiece> in_view;
+    std::vector<PieceDraw> draws;  // the nearest first
+    GpuBuffer instance_records;    // of each of in_view
     std::vector<FeatureNote> built;
     std::vector<FeatureNote> left_out;
     std::uint64_t triangles_in_view = 0;
@@ -143,6 +172,7 @@ struct ScenePasses::Parts {
         return options.force_everything ? 0 : options.most_detail_error_px;
     }
     void find_visible(const CameraView& view);
+    void record_instances(VkCommandBuffer commands);
     void record_layer(VkCommandBuffer commands, bool blended_layer);
     void record_layers(VkCommandBuffer commands);
 };
@@ -156,6 +186,12 @@ void ScenePasses::Parts::build_meshes(const Scene& scene) {
     light_count = all ? shared::kMaxLights : static_cast<std::uint32_t>(scene.lights.size());
     build_late = options.late_textures.value_or(gpu.runs_on_the_cpu()) && can_read_textures_late(scene);
     resources.emplace(gpu, scene, !build_emission, build_late, most_detail_error_px() > 0);
+    std::size_t most_pieces = 1;
+    for (const DrawInstance& instance : resources->instances())
+        most_pieces += resources->meshes()[instance.mesh].pieces.size();
+    instance_records = GpuBuffer(gpu, most_pieces * sizeof(shared::InstanceRecord),
+                                 VK_BUFFER_USAGE_VERTEX_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+                                 BufferPlace::device);
     if (build_shadow) {
         shadow.emplace(gpu, *resources, glm::normalize(scene.sun->direction));
         std::memcpy(lighting.shadow_from_world.columns, &shadow->map_from_world(), sizeof(glm::mat4));
@@ -356,7 +392,7 @@ void ScenePasses::Parts::make_targets() {
                           build_blended ? blended_depth.view() : unused_depth.view(), nearest.get());
 }
 
-// Lists the pieces in the view, the nearest first, and chooses their levels of detail.
+// Lists the pieces in the view, chooses their levels of detail, and gathers those that one call can draw.
 void ScenePasses::Parts::find_visible(const CameraView& view) {
     const glm::vec3 eye{view.world_from_eye[3]};
     const glm::mat4 eye_from_world = glm::inverse(view.world_from_eye);
@@ -378,12 +414,24 @@ void ScenePasses::Parts::find_visible(const CameraView& view) {
             triangles_in_view += level.index_count / 3;
             // By their centres: what is large and begins near, as a road, mostly lies behind what stands on
             // it.
-            in_view.push_back({glm::distance(eye, bounds.centre()), i, level.first_index, level.index_count});
+            in_view.push_back({glm::distance(eye, bounds.centre()), i, level.first_index, level.index_count,
+                               instance.mirrored});
         }
     }
     std::sort(in_view.begin(), in_view.end(), [](const VisiblePiece& a, const VisiblePiece& b) {
-        return std::tuple(a.distance_m, a.instance, a.first_index) <
-               std::tuple(b.distance_m, b.instance, b.first_index);
+        return std::tuple(a.first_index, a.mirrored, a.distance_m, a.instance) <
+               std::tuple(b.first_index, b.mirrored, b.distance_m, b.instance);
+    });
+    draws.clear();
+    for (std::uint32_t i = 0; i < in_view.size(); ++i) {
+        const bool same = i > 0 && in_view[i].first_index == in_view[i - 1].first_index &&
+                          in_view[i].mirrored == in_view[i - 1].mirrored;
+        if (!same) draws.push_back({i, 0});
+        ++draws.back().count;
+    }
+    std::sort(draws.begin(), draws.end(), [this](const PieceDraw& a, const PieceDraw& b) {
+        return std::tuple(in_view[a.first].distance_m, a.first) <
+               std::tuple(in_view[b.first].distance_m, b.first);
     });
     std::erase_if(built, [](const FeatureNote& n) { return n.name == kLevels; });
     std::erase_if(left_out, [](const FeatureNote& n) { return n.name == kLevels; });
@@ -394,6 +442,21 @@ void ScenePasses::Parts::find_visible(const CameraView& view) {
          "full detail was asked for");
 }
 
+void ScenePasses::Parts::record_instances(VkCommandBuffer commands) {
+    std::vector<shared::InstanceRecord> records;
+    records.reserve(in_view.size());
+    for (const VisiblePiece& piece : in_view)
+        records.push_back(record_of(resources->instances()[piece.instance], clip_from_world));
+    const std::span<const std::byte> bytes = std::as_bytes(std::span(records));
+    // An earlier view in this command buffer may still be reading them.
+    memory_barrier(commands, kUseInstances, kUseTransferTarget);
+    for (std::size_t at = 0; at < bytes.size(); at += kMostUpdate) {
+        const auto part = bytes.subspan(at, std::min<std::size_t>(kMostUpdate, bytes.size() - at));
+        vkCmdUpdateBuffer(commands, instance_records.get(), at, part.size(), part.data());
+    }
+    memory_barrier(commands, kUseTransferTarget, kUseInstances);
+}
+
 void ScenePasses::Parts::record_layer(VkCommandBuffer commands, bool blended_layer) {
     const GpuImage& words = blended_layer ? blended : gbuffer;
     const DepthTarget depth_target{(blended_layer ? blended_depth : depth).view(), true, 0.0f, false};
@@ -401,15 +464,18 @@ void ScenePasses::Parts::record_layer(VkCommandBuffer commands, bool blended_lay
     const ColorTarget words_target{.view = words.view(), .discard = true};
     begin_rendering(commands, words.extent(), {words_target}, &depth_target);
     resources->bind_geometry(commands);
+    const VkBuffer records = instance_records.get();
+    const VkDeviceSize start = 0;
+    vkCmdBindVertexBuffers(commands, kInstanceBinding, 1, &records, &start);
     VkPipeline bound_pipeline = VK_NULL_HANDLE;
     int bound_material = -1;
-    std::size_t pushed_instance = resources->instances().size();
-    for (const VisiblePiece& piece : in_view) {
+    for (const PieceDraw& draw : draws) {
+        const VisiblePiece& piece = in_view[draw.first];
         const DrawInstance& instance = resources->instances()[piece.instance];
         const DrawMesh& mesh = resources->meshes()[instance.mesh];
         const DrawMaterial& material = resources->material_of(instance);
         if (material.blend != blended_layer) continue;
-        const PipelineKey key = material.flags | (instance.mirrored ? kKeyMirrored : 0);
+        const PipelineKey key = material.flags | (piece.mirrored ? kKeyMirrored : 0);
         const VkPipeline pipeline = resources->gbuffer_pipeline(gpu, key);
         if (pipeline != bound_pipeline)
             vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);
@@ -420,9 +486,8 @@ void ScenePasses::Parts::record_layer(VkCommandBuffer commands, bool blended_lay
                                     &material_set, 0, nullptr);
             bound_material = mesh.material;
         }
-        if (piece.instance != pushed_instance) push_instance(commands, *resources, instance, clip_from_world);
-        pushed_instance = piece.instance;
-        vkCmdDrawIndexed(commands, piece.index_count, 1, piece.first_index, mesh.first_vertex, 0);
+        vkCmdDrawIndexed(commands, piece.index_count, draw.count, piece.first_index, mesh.first_vertex,
+                         draw.first);
     }
     vkCmdEndRendering(commands);
 }
@@ -437,6 +502,7 @@ void ScenePasses::Parts::record_layers(VkCommandBuffer commands) {
     }
     for (const GpuImage* image : words) image_barrier(commands, *image, kUseNone, kUseColorTarget);
     for (const GpuImage* image : distances) image_barrier(commands, *image, kUseNone, kUseDepthTarget);
+    record_instances(commands);
     if (build_blended) record_layer(commands, true);
     record_layer(commands, false);
     for (const GpuImage* image : words) image_barrier(commands, *image, kUseColorTarget, kUseSampled);

@@ -223,7 +223,7 @@ void SceneResources::make_materials(Gpu& gpu, const Scene& scene) {
         }
         materials_.push_back(std::move(draw));
     }
-    layout_ = make_pipeline_layout(gpu, {materials_.front().set.layout()}, sizeof(shared::InstancePush));
+    layout_ = make_pipeline_layout(gpu, {materials_.front().set.layout()}, sizeof(glm::mat4));
 }
 
 VkPipeline SceneResources::gbuffer_pipeline(Gpu& gpu, PipelineKey key) {
@@ -248,10 +248,16 @@ VkPipeline SceneResources::gbuffer_pipeline(Gpu& gpu, PipelineKey key) {
     if (late && !tangents) d.fragment = shader_code::gbuffer_late_frag;
     d.layout = layout_.get();
     d.vertex_bindings = {{0, sizeof(glm::vec3), VK_VERTEX_INPUT_RATE_VERTEX},
-                         {1, sizeof(PackedAttributes), VK_VERTEX_INPUT_RATE_VERTEX}};
+                         {1, sizeof(PackedAttributes), VK_VERTEX_INPUT_RATE_VERTEX},
+                         {kInstanceBinding, sizeof(shared::InstanceRecord), VK_VERTEX_INPUT_RATE_INSTANCE}};
     d.vertex_attributes = {{0, 0, VK_FORMAT_R32G32B32_SFLOAT, 0},
                            {1, 1, VK_FORMAT_R16G16B16A16_SNORM, offsetof(PackedAttributes, normal)},
                            {2, 1, VK_FORMAT_R32G32_SFLOAT, offsetof(PackedAttributes, uv)}};
+    for (std::uint32_t i = 0; i < sizeof(shared::InstanceRecord) / sizeof(shared::vec4); ++i) {
+        d.vertex_attributes.push_back({shared::kInstanceLocation + i, kInstanceBinding,
+                                       VK_FORMAT_R32G32B32A32_SFLOAT,
+                                       static_cast<std::uint32_t>(i * sizeof(shared::vec4))});
+    }
     if (tangents) {
         d.vertex_attributes.push_back(
             {3, 1, VK_FORMAT_R16G16B16A16_SNORM, offsetof(PackedAttributes, tangent)});
@@ -265,16 +271,16 @@ VkPipeline SceneResources::gbuffer_pipeline(Gpu& gpu, PipelineKey key) {
     d.cull = key & kKeyCullBack ? VK_CULL_MODE_BACK_BIT : VK_CULL_MODE_NONE;
     d.front_face = key & kKeyMirrored ? VK_FRONT_FACE_CLOCKWISE : VK_FRONT_FACE_COUNTER_CLOCKWISE;
     d.depth_test = true;
-    d.depth_write = !(key & kKeyDepthEqual);
-    d.depth_compare = key & kKeyDepthEqual ? VK_COMPARE_OP_EQUAL : VK_COMPARE_OP_GREATER;
+    d.depth_write = true;
+    d.depth_compare = VK_COMPARE_OP_GREATER;
     for (std::uint32_t i = 0; i < shared::kGeometryConstants; ++i)
         d.constants.push_back({i, (key >> i) & 1u});
     pipeline = make_graphics_pipeline(gpu, d);
     return pipeline.get();
 }
 
-VkPipeline SceneResources::depth_pipeline(Gpu& gpu, bool masked, VkFormat format) {
-    OwnedPipeline& pipeline = depth_pipelines_[{masked, format}];
+VkPipeline SceneResources::shadow_pipeline(Gpu& gpu, bool masked) {
+    OwnedPipeline& pipeline = shadow_pipelines_[masked];
     if (pipeline) return pipeline.get();
     GraphicsPipelineDescription d;
     d.layout = layout_.get();
@@ -287,14 +293,13 @@ VkPipeline SceneResources::depth_pipeline(Gpu& gpu, bool masked, VkFormat format
         d.vertex_bindings.push_back({1, sizeof(PackedAttributes), VK_VERTEX_INPUT_RATE_VERTEX});
         d.vertex_attributes.push_back({2, 1, VK_FORMAT_R32G32_SFLOAT, offsetof(PackedAttributes, uv)});
     }
-    d.depth_format = format;
+    d.depth_format = kShadowFormat;
     d.depth_test = true;
     d.depth_write = true;
     // The shadow map runs from 0 at the sun; the picture's depth is reversed.
-    const bool shadow = format == kShadowFormat;
-    d.depth_compare = shadow ? VK_COMPARE_OP_LESS : VK_COMPARE_OP_GREATER;
-    if (shadow) d.depth_bias_slope = 1.5f;
-    if (shadow) d.depth_bias_constant = 2;
+    d.depth_compare = VK_COMPARE_OP_LESS;
+    d.depth_bias_slope = 1.5f;
+    d.depth_bias_constant = 2;
     pipeline = make_graphics_pipeline(gpu, d);
     return pipeline.get();
 }

@@ -15,8 +15,9 @@ namespace parafovea {
 // How a material is drawn: bits 0 to 8 are the kConst* flags of scene_layout.h, then these.
 using PipelineKey = std::uint32_t;
 inline constexpr PipelineKey kKeyCullBack = 1u << 16;
-inline constexpr PipelineKey kKeyMirrored = 1u << 17;    // the instance's transform turns triangles over
-inline constexpr PipelineKey kKeyDepthEqual = 1u << 18;  // the depth pass has run
+inline constexpr PipelineKey kKeyMirrored = 1u << 17;  // the instance's transform turns triangles over
+
+inline constexpr std::uint32_t kInstanceBinding = 3;
 
 inline constexpr VkFormat kDepthFormat = VK_FORMAT_D32_SFLOAT;
 inline constexpr VkFormat kShadowFormat = VK_FORMAT_D16_UNORM;
@@ -65,9 +66,10 @@ class SceneResources {
 
     // Made on first use and kept.
     VkPipeline gbuffer_pipeline(Gpu& gpu, PipelineKey key);
-    VkPipeline depth_pipeline(Gpu& gpu, bool masked, VkFormat format);
+    VkPipeline shadow_pipeline(Gpu& gpu, bool masked);
     VkPipelineLayout layout() const { return layout_.get(); }
 
+    // Vertices and indices; a G-buffer pipeline also reads shared::InstanceRecord[] at kInstanceBinding.
     void bind_geometry(VkCommandBuffer commands) const;
 
   private:
@@ -93,7 +95,7 @@ class SceneResources {
     bool late_textures_ = false;
     OwnedPipelineLayout layout_;
     std::map<PipelineKey, OwnedPipeline> gbuffer_pipelines_;
-    std::map<std::pair<bool, VkFormat>, OwnedPipeline> depth_pipelines_;
+    std::map<bool, OwnedPipeline> shadow_pipelines_;
 };
 
 }  // namespace parafovea

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <glm/ext/matrix_clip_space.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 
@@ -20,10 +19,6 @@ constexpr std::uint32_t kLampMap = 1024;
 constexpr float kWidestHalfAngle_rad =
     1.31f;  // beyond 75 degrees a flat map has no texels left for the middle
 
-shared::vec4 packed(glm::vec3 v, float w) {
-    return {v.x, v.y, v.z, w};
-}
-
 // Depth of every opaque instance that a light may see.
 void draw_casters(VkCommandBuffer commands, Gpu& gpu, SceneResources& resources, VkImageView target_view,
                   VkExtent2D extent, const glm::mat4& clip_from_world) {
@@ -35,7 +30,7 @@ void draw_casters(VkCommandBuffer commands, Gpu& gpu, SceneResources& resources,
         const DrawMaterial& material = resources.material_of(instance);
         if (material.blend) continue;  // light passes through glass
         if (instance.bounds.empty() || !may_be_seen(instance.bounds, clip_from_world)) continue;
-        const VkPipeline pipeline = resources.depth_pipeline(gpu, material.mask, kShadowFormat);
+        const VkPipeline pipeline = resources.shadow_pipeline(gpu, material.mask);
         if (pipeline != bound) vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);
         bound = pipeline;
         if (material.mask) {
@@ -43,7 +38,9 @@ void draw_casters(VkCommandBuffer commands, Gpu& gpu, SceneResources& resources,
             vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, resources.layout(), 0, 1, &set,
                                     0, nullptr);
         }
-        push_instance(commands, resources, instance, clip_from_world);
+        const glm::mat4 clip_from_mesh = clip_from_world * instance.world_from_mesh;
+        vkCmdPushConstants(commands, resources.layout(), kPushConstantStages, 0, sizeof clip_from_mesh,
+                           &clip_from_mesh);
         const DrawMesh& mesh = resources.meshes()[instance.mesh];
         vkCmdDrawIndexed(commands, mesh.index_count, 1, mesh.first_index, mesh.first_vertex, 0);
     }
@@ -65,17 +62,6 @@ bool may_be_seen(const Bounds& box, const glm::mat4& clip_from_world) {
         behind += p.w <= 0;
     }
     return left < 8 && right < 8 && above < 8 && below < 8 && behind < 8;
-}
-
-void push_instance(VkCommandBuffer commands, const SceneResources& resources, const DrawInstance& instance,
-                   const glm::mat4& clip_from_world) {
-    shared::InstancePush push{};
-    const glm::mat4 matrix = clip_from_world * instance.world_from_mesh;
-    std::memcpy(push.clip_from_mesh.columns, &matrix, sizeof matrix);
-    push.normal_x = packed(instance.world_from_normal[0], instance.mirrored ? -1.0f : 1.0f);
-    push.normal_y = packed(instance.world_from_normal[1], 0);
-    push.normal_z = packed(instance.world_from_normal[2], 0);
-    vkCmdPushConstants(commands, resources.layout(), kPushConstantStages, 0, sizeof push, &push);
 }
 
 SunShadow::SunShadow(Gpu& gpu, const SceneResources& resources, glm::vec3 to_sun) {

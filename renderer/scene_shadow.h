@@ -49,8 +49,4 @@ class LampShadows {
 // False only if the box lies wholly outside one of the frustum's planes, the near one left aside.
 bool may_be_seen(const Bounds& box, const glm::mat4& clip_from_world);
 
-// Pushes what the geometry shaders need of an instance.
-void push_instance(VkCommandBuffer commands, const SceneResources& resources, const DrawInstance& instance,
-                   const glm::mat4& clip_from_world);
-
 }  // namespace parafovea

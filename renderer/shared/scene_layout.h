@@ -61,8 +61,11 @@ const uint kGeometryConstants = 9u;
 // The length with which a left-handed tangent leaves the G-buffer's vertex shader; a right-handed one has 1.
 const float kLeftHandedLength = 64.0f;
 
-// Push constants of the geometry shaders.
-struct InstancePush {
+// What the G-buffer's vertex shader needs of an instance: attributes from kInstanceLocation on, one vec4 or column
+// at each.
+const uint kInstanceLocation = 5u;
+
+struct InstanceRecord {
     mat4 clip_from_mesh;
     vec4 normal_x;  // columns of the matrix that takes normals to the world; w of the first: -1 when it
                     // mirrors
