@@ -8,13 +8,13 @@
 #include <glm/gtc/packing.hpp>
 #include <numbers>
 #include <optional>
-#include <tuple>
 
 #include "renderer/scene_irradiance.h"
 #include "renderer/scene_lighting.h"
 #include "renderer/scene_resources.h"
 #include "renderer/scene_shadow.h"
 #include "renderer/scene_surface_textures.h"
+#include "renderer/scene_visible.h"
 
 namespace parafovea {
 namespace {
@@ -64,21 +64,6 @@ bool is_same(const shared::Camera& a, const shared::Camera& b) {
     return std::memcmp(&a, &b, sizeof a) == 0;
 }
 
-// A piece of an instance, in the level of detail in which it is drawn.
-struct VisiblePiece {
-    float distance_m = 0;
-    std::size_t instance = 0;
-    std::uint32_t first_index = 0;
-    std::uint32_t index_count = 0;
-    bool mirrored = false;
-};
-
-// Neighbours in the list of what is in view that one draw call draws: the same piece in the same level of detail.
-struct PieceDraw {
-    std::uint32_t first = 0;
-    std::uint32_t count = 0;
-};
-
 shared::vec4 packed(glm::vec3 v, float w) {
     return {v.x, v.y, v.z, w};
 }
@@ -91,29 +76,6 @@ shared::InstanceRecord record_of(const DrawInstance& instance, const glm::mat4& 
     record.normal_y = packed(instance.world_from_normal[1], 0);
     record.normal_z = packed(instance.world_from_normal[2], 0);
     return record;
-}
-
-// How many pixels at most a metre covers, anywhere in a box. A flat picture stretches what lies off its axis.
-float px_per_m(const Bounds& box, const CameraView& view, const glm::mat4& eye_from_world, SizePx size) {
-    const float widest = std::max(view.tan_left, view.tan_right),
-                highest = std::max(view.tan_up, view.tan_down);
-    float most_x = 0, most_y = 0;
-    for (int corner = 0; corner < 8; ++corner) {
-        const glm::vec3 p{eye_from_world * glm::vec4(corner & 1 ? box.high.x : box.low.x,
-                                                     corner & 2 ? box.high.y : box.low.y,
-                                                     corner & 4 ? box.high.z : box.low.z, 1)};
-        const bool ahead = p.z < -view.near_m;
-        most_x = std::max(most_x, ahead ? std::abs(p.x / p.z) : widest);
-        most_y = std::max(most_y, ahead ? std::abs(p.y / p.z) : highest);
-    }
-    // Only what lies in the frustum is seen.
-    most_x = std::min(most_x, widest);
-    most_y = std::min(most_y, highest);
-    const float px_per_tan = std::max(static_cast<float>(size.width) / (view.tan_left + view.tan_right),
-                                      static_cast<float>(size.height) / (view.tan_up + view.tan_down));
-    const glm::vec3 eye{view.world_from_eye[3]};
-    const float distance = std::max(glm::distance(eye, glm::clamp(eye, box.low, box.high)), view.near_m);
-    return px_per_tan * (1 + most_x * most_x + most_y * most_y) / distance;
 }
 
 }  // namespace
@@ -148,13 +110,10 @@ struct ScenePasses::Parts {
     GpuImage irradiance, light_grid;
     OwnedSampler nearest, shadow_sampler, linear, trilinear;
     DescriptorSet set;
-    std::vector<VisiblePiece> in_view;
-    std::vector<PieceDraw> draws;  // the nearest first
-    GpuBuffer instance_records;    // of each of in_view
+    VisiblePieces in_view;
+    GpuBuffer instance_records;  // of each of in_view's pieces
     std::vector<FeatureNote> built;
     std::vector<FeatureNote> left_out;
-    std::uint64_t triangles_in_view = 0;
-    std::uint64_t full_triangles_in_view = 0;
 
     void note(bool is_built, const char* name, const std::string& why_built, const std::string& why_not) {
         if (is_built)
@@ -392,51 +351,12 @@ void ScenePasses::Parts::make_targets() {
                           build_blended ? blended_depth.view() : unused_depth.view(), nearest.get());
 }
 
-// Lists the pieces in the view, chooses their levels of detail, and gathers those that one call can draw.
 void ScenePasses::Parts::find_visible(const CameraView& view) {
-    const glm::vec3 eye{view.world_from_eye[3]};
-    const glm::mat4 eye_from_world = glm::inverse(view.world_from_eye);
-    in_view.clear();
-    triangles_in_view = full_triangles_in_view = 0;
-    for (std::size_t i = 0; i < resources->instances().size(); ++i) {
-        const DrawInstance& instance = resources->instances()[i];
-        if (instance.bounds.empty() || !may_be_seen(instance.bounds, clip_from_world)) continue;
-        const std::vector<MeshPiece>& pieces = resources->meshes()[instance.mesh].pieces;
-        for (std::size_t k = 0; k < pieces.size(); ++k) {
-            const Bounds& bounds = instance.piece_bounds[k];
-            if (pieces.size() > 1 && !may_be_seen(bounds, clip_from_world)) continue;
-            DetailLevel level = pieces[k].levels.front();
-            full_triangles_in_view += level.index_count / 3;
-            if (pieces[k].levels.size() > 1) {
-                const float px_per_error = px_per_m(bounds, view, eye_from_world, size) * instance.stretch;
-                level = level_for(pieces[k], static_cast<float>(most_detail_error_px()) / px_per_error);
-            }
-            triangles_in_view += level.index_count / 3;
-            // By their centres: what is large and begins near, as a road, mostly lies behind what stands on
-            // it.
-            in_view.push_back({glm::distance(eye, bounds.centre()), i, level.first_index, level.index_count,
-                               instance.mirrored});
-        }
-    }
-    std::sort(in_view.begin(), in_view.end(), [](const VisiblePiece& a, const VisiblePiece& b) {
-        return std::tuple(a.first_index, a.mirrored, a.distance_m, a.instance) <
-               std::tuple(b.first_index, b.mirrored, b.distance_m, b.instance);
-    });
-    draws.clear();
-    for (std::uint32_t i = 0; i < in_view.size(); ++i) {
-        const bool same = i > 0 && in_view[i].first_index == in_view[i - 1].first_index &&
-                          in_view[i].mirrored == in_view[i - 1].mirrored;
-        if (!same) draws.push_back({i, 0});
-        ++draws.back().count;
-    }
-    std::sort(draws.begin(), draws.end(), [this](const PieceDraw& a, const PieceDraw& b) {
-        return std::tuple(in_view[a.first].distance_m, a.first) <
-               std::tuple(in_view[b.first].distance_m, b.first);
-    });
+    in_view = visible_pieces(*resources, view, size, most_detail_error_px());
     std::erase_if(built, [](const FeatureNote& n) { return n.name == kLevels; });
     std::erase_if(left_out, [](const FeatureNote& n) { return n.name == kLevels; });
     note(most_detail_error_px() > 0, kLevels,
-         std::to_string(triangles_in_view) + " of " + std::to_string(full_triangles_in_view) +
+         std::to_string(in_view.triangles) + " of " + std::to_string(in_view.full_triangles) +
              " triangles are drawn; no vertex appears farther than " +
              std::to_string(most_detail_error_px()).substr(0, 4) + " pixels from its place",
          "full detail was asked for");
@@ -444,8 +364,8 @@ void ScenePasses::Parts::find_visible(const CameraView& view) {
 
 void ScenePasses::Parts::record_instances(VkCommandBuffer commands) {
     std::vector<shared::InstanceRecord> records;
-    records.reserve(in_view.size());
-    for (const VisiblePiece& piece : in_view)
+    records.reserve(in_view.pieces.size());
+    for (const VisiblePiece& piece : in_view.pieces)
         records.push_back(record_of(resources->instances()[piece.instance], clip_from_world));
     const std::span<const std::byte> bytes = std::as_bytes(std::span(records));
     // An earlier view in this command buffer may still be reading them.
@@ -469,13 +389,13 @@ void ScenePasses::Parts::record_layer(VkCommandBuffer commands, bool blended_lay
     vkCmdBindVertexBuffers(commands, kInstanceBinding, 1, &records, &start);
     VkPipeline bound_pipeline = VK_NULL_HANDLE;
     int bound_material = -1;
-    for (const PieceDraw& draw : draws) {
-        const VisiblePiece& piece = in_view[draw.first];
+    for (const PieceDraw& draw : in_view.draws) {
+        const VisiblePiece& piece = in_view.pieces[draw.first];
         const DrawInstance& instance = resources->instances()[piece.instance];
         const DrawMesh& mesh = resources->meshes()[instance.mesh];
         const DrawMaterial& material = resources->material_of(instance);
         if (material.blend != blended_layer) continue;
-        const PipelineKey key = material.flags | (piece.mirrored ? kKeyMirrored : 0);
+        const PipelineKey key = material.flags | (instance.mirrored ? kKeyMirrored : 0);
         const VkPipeline pipeline = resources->gbuffer_pipeline(gpu, key);
         if (pipeline != bound_pipeline)
             vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);
@@ -617,10 +537,10 @@ const std::vector<FeatureNote>& ScenePasses::left_out() const {
     return parts_->left_out;
 }
 std::uint64_t ScenePasses::triangles_in_view() const {
-    return parts_->triangles_in_view;
+    return parts_->in_view.triangles;
 }
 std::uint64_t ScenePasses::full_triangles_in_view() const {
-    return parts_->full_triangles_in_view;
+    return parts_->in_view.full_triangles;
 }
 
 }  // namespace parafovea
