@@ -11,7 +11,6 @@
 namespace parafovea {
 namespace {
 
-constexpr VkFormat kMeanFormat = VK_FORMAT_R16G16B16A16_SFLOAT;
 constexpr std::size_t kGridCells = std::size_t{shared::kSpacingColumns} * shared::kSpacingRows;
 
 }  // namespace
@@ -25,7 +24,8 @@ ContrastStage::ContrastStage(Gpu& gpu, VkFormat target_format)
                  {1, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER},
                  {2, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER}}),
       layout_(make_pipeline_layout(gpu, {set_.layout()}, sizeof(float))),
-      mean_pipeline_(make_fullscreen_pipeline(gpu, shader_code::contrast_mean, layout_.get(), {kMeanFormat})),
+      mean_pipeline_(make_fullscreen_pipeline(gpu, shader_code::contrast_mean, layout_.get(),
+                                              {display_linear_format(gpu)})),
       boost_pipeline_(
           make_fullscreen_pipeline(gpu, shader_code::contrast_boost, layout_.get(), {target_format})),
       spacing_(gpu, kGridCells * sizeof(shared::vec2), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
@@ -42,7 +42,7 @@ void ContrastStage::record(VkCommandBuffer commands, const GpuImage& picture, co
         mean_of_rows_.extent().height != extent.height) {
         mean_of_rows_ = {};
         mean_of_rows_ =
-            GpuImage(gpu_, {.format = kMeanFormat,
+            GpuImage(gpu_, {.format = display_linear_format(gpu_),
                             .width = extent.width,
                             .height = extent.height,
                             .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT});

@@ -302,6 +302,15 @@ std::vector<std::byte> read_back(Gpu& gpu, const GpuImage& image, const Resource
     return bytes;
 }
 
+VkFormat display_linear_format(const Gpu& gpu) {
+    VkFormatProperties properties;
+    vkGetPhysicalDeviceFormatProperties(gpu.physical_device(), VK_FORMAT_R16G16B16A16_UNORM, &properties);
+    const VkFormatFeatureFlags needed =
+        VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BIT | VK_FORMAT_FEATURE_SAMPLED_IMAGE_FILTER_LINEAR_BIT;
+    return (properties.optimalTilingFeatures & needed) == needed ? VK_FORMAT_R16G16B16A16_UNORM
+                                                                 : VK_FORMAT_R16G16B16A16_SFLOAT;
+}
+
 OwnedSampler make_sampler(Gpu& gpu, const SamplerDescription& description) {
     VkSamplerCreateInfo info{VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO};
     info.magFilter = description.filter;

@@ -109,6 +109,10 @@ class GpuImage {
     OwnedImageView view_;
 };
 
+// For display-linear values in [0, 1], to be drawn and sampled: fixed point with 16 bits each, which is finer
+// than halves where it is seen; halves where the device cannot draw to that.
+VkFormat display_linear_format(const Gpu& gpu);
+
 // How an image or buffer is used before or after a barrier: pipeline stages, accesses and (images) layout.
 struct ResourceUse {
     VkPipelineStageFlags2 stages = 0;

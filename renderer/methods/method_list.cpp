@@ -20,16 +20,6 @@ namespace {
 
 constexpr VkFormat kTargetFormat = VK_FORMAT_R8G8B8A8_SRGB;
 
-// Display-linear values with 16 bits each; halves where the device cannot draw to fixed-point ones.
-VkFormat reduced_format(const Gpu& gpu) {
-    VkFormatProperties properties;
-    vkGetPhysicalDeviceFormatProperties(gpu.physical_device(), VK_FORMAT_R16G16B16A16_UNORM, &properties);
-    const VkFormatFeatureFlags needed =
-        VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BIT | VK_FORMAT_FEATURE_SAMPLED_IMAGE_FILTER_LINEAR_BIT;
-    return (properties.optimalTilingFeatures & needed) == needed ? VK_FORMAT_R16G16B16A16_UNORM
-                                                                 : VK_FORMAT_R16G16B16A16_SFLOAT;
-}
-
 struct GridMethodName {
     const char* name;
     const char* summary;
@@ -89,7 +79,7 @@ const std::vector<MethodName>& method_names() {
 }
 
 std::unique_ptr<FoveationMethod> make_method(Gpu& gpu, const std::string& name, const ShadingSource& source) {
-    const VkFormat reduced = reduced_format(gpu);
+    const VkFormat reduced = display_linear_format(gpu);
     const bool lists = shaders_can_write(gpu, reduced);
     const KfrFormats formats{.target = kTargetFormat,
                              .reduced = reduced,
