@@ -11,7 +11,7 @@ vec3 read(vec2 texel) { return textureLod(samples, texel / grid.buffer_size, 0.0
 
 // Along one ring; its row holds it with an overlap of a texel at either end.
 vec3 read_ring(float row, float turns) {
-    return read(vec2(1.0 + turns * samples_of_row[int(row)] - jitter.x, row + 0.5));
+    return read_along_row(samples, 1.0 + turns * samples_of_row[int(row)] - jitter.x, row);
 }
 
 vec3 read_rings() {

@@ -3,7 +3,7 @@
 #ifndef GRID_RINGS_COARSE_GLSL
 #define GRID_RINGS_COARSE_GLSL
 
-layout(set = METHOD_SET, binding = 3) uniform sampler2D coarse;  // linear, clamped
+layout(set = METHOD_SET, binding = 3) uniform sampler2D coarse;
 
 // The column of a coarse row at a direction.
 float column_at(int coarse_row, float turns) {
@@ -14,8 +14,7 @@ int last_coarse_row() { return int(grid.rings) / 2; }
 
 // Along one coarse ring; its row holds it with an overlap of a texel at either end.
 vec3 read_coarse(int coarse_row, float turns) {
-    vec2 at = vec2(column_at(coarse_row, turns), float(coarse_row)) + 0.5;
-    return textureLod(coarse, at / vec2(textureSize(coarse, 0)), 0.0).rgb;
+    return read_along_row(coarse, column_at(coarse_row, turns) + 0.5, float(coarse_row));
 }
 
 // Whether a texel of the rings is one that the first round shades.

@@ -27,6 +27,16 @@ int layer_of_texel(vec2 texel) {
     return -1;
 }
 
+// Between two texels of a row, at a column position. Not through a sampler, which rounding might let touch the rows
+// beside it, where texels that no pixel needs hold anything.
+vec3 read_along_row(sampler2D image, float column, float row) {
+    float low = floor(column - 0.5);
+    ivec2 texel = ivec2(low, row);
+    vec3 before = texelFetch(image, texel, 0).rgb;
+    vec3 after = texelFetch(image, texel + ivec2(1, 0), 0).rgb;
+    return mix(before, after, column - 0.5 - low);
+}
+
 // A layer without reduction is read pixel by pixel.
 bool is_native(GridLayer layer) { return layer.step_px == 1.0; }
 
