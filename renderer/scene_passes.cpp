@@ -148,9 +148,9 @@ void ScenePasses::Parts::build_meshes(const Scene& scene) {
     std::size_t most_pieces = 1;
     for (const DrawInstance& instance : resources->instances())
         most_pieces += resources->meshes()[instance.mesh].pieces.size();
-    instance_records = GpuBuffer(gpu, most_pieces * sizeof(shared::InstanceRecord),
-                                 VK_BUFFER_USAGE_VERTEX_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
-                                 BufferPlace::device);
+    instance_records =
+        GpuBuffer(gpu, most_pieces * sizeof(shared::InstanceRecord),
+                  VK_BUFFER_USAGE_VERTEX_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT, BufferPlace::device);
     if (build_shadow) {
         shadow.emplace(gpu, *resources, glm::normalize(scene.sun->direction));
         std::memcpy(lighting.shadow_from_world.columns, &shadow->map_from_world(), sizeof(glm::mat4));

@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "renderer/methods/native_inset.h"
+#include "renderer/methods/gaze_disc.h"
 #include "shader_code/fullscreen_vert.h"
 #include "shader_code/grid_mask.h"
 #include "shader_code/grid_mask_detail.h"

@@ -9,18 +9,20 @@
 #include <stdexcept>
 #include <utility>
 
+#include "renderer/methods/gaze_disc.h"
 #include "renderer/methods/method_parameters.h"
-#include "renderer/methods/native_inset.h"
 #include "shader_code/fullscreen_vert.h"
 #include "shader_code/internal_filter.h"
 #include "shader_code/pass_1_compute_meshes.h"
 #include "shader_code/pass_1_compute_picture.h"
 #include "shader_code/pass_1_compute_primitives.h"
+#include "shader_code/pass_1_fine.h"
 #include "shader_code/pass_1_listed_meshes.h"
 #include "shader_code/pass_1_listed_picture.h"
 #include "shader_code/pass_1_listed_primitives.h"
 #include "shader_code/pass_1_meshes.h"
 #include "shader_code/pass_1_picture.h"
+#include "shader_code/pass_1_pixels_meshes.h"
 #include "shader_code/pass_1_primitives.h"
 #include "shader_code/pass_2.h"
 #include "shader_code/pass_2_exact.h"
@@ -34,6 +36,9 @@ namespace {
 // How many settings may take turns on one screen before buffers are made anew.
 constexpr std::size_t kMostTargets = 8;
 
+// Of KfrTargets::counts.
+constexpr std::uint32_t kTexelQuery = 0, kDiscQuery = 1;
+
 const ShadingCode kComputeShading{shader_code::pass_1_compute_meshes, shader_code::pass_1_compute_primitives,
                                   shader_code::pass_1_compute_picture};
 const ShadingCode kListedShading{shader_code::pass_1_listed_meshes, shader_code::pass_1_listed_primitives,
@@ -43,6 +48,13 @@ const ShadingCode kShading{shader_code::pass_1_meshes, shader_code::pass_1_primi
 
 std::uint32_t side(int pixels) {
     return static_cast<std::uint32_t>(pixels);
+}
+
+// Of a buffer that is being drawn, draws only the columns from `first` on.
+void keep_to_columns(VkCommandBuffer commands, SizePx buffer, std::uint32_t first) {
+    const VkRect2D columns{{static_cast<std::int32_t>(first), 0},
+                           {side(buffer.width) - first, side(buffer.height)}};
+    vkCmdSetScissor(commands, 0, 1, &columns);
 }
 
 // A full-screen pass that runs only where the mask says that a texel is needed: its triangle has depth 0.
@@ -108,7 +120,7 @@ void KfrMethod::prepare(SizePx screen, PointPx gaze) {
         // Another screen makes the old ones useless; many settings on one take turns.
         targets_.remove_if([&](const KfrTargets& targets) { return targets.screen != screen; });
         while (targets_.size() >= kMostTargets) targets_.pop_back();
-        targets_.emplace_front(gpu_, formats_, list_maker_, setting_, screen);
+        targets_.emplace_front(gpu_, formats_, list_maker_, source_.thing, setting_, screen);
     }
     targets_.front().set_gaze(usable_gaze(screen, gaze));
 }
@@ -159,6 +171,13 @@ KfrMethod::Pipelines KfrMethod::make_pipelines() const {
         listed.constants = shading.constants;
         if (setting_.culling && formats_.lists) made.listed_shading = make_graphics_pipeline(gpu_, listed);
     }
+    if (KfrTargets::shares_pixels(source_.thing, setting_)) {
+        made.pixels =
+            make_graphics_pipeline(gpu_, gaze_disc(shader_code::pass_1_pixels_meshes, layouts_.shading.get(),
+                                                   formats_.reduced, shading.constants));
+        made.fine = make_fullscreen_pipeline(gpu_, shader_code::pass_1_fine, layouts_.resample.get(),
+                                             {formats_.reduced}, map_constants);
+    }
     if (setting_.internal_filter) {
         GraphicsPipelineDescription filter = masked_pass(shader_code::internal_filter, layouts_.filter.get(),
                                                          formats_.reduced, setting_.culling);
@@ -189,6 +208,7 @@ void KfrMethod::record(const MethodFrame& frame) {
     if (t.mask && (t.mask_stale || t.mask_jitter != frame.jitter)) record_mask(frame);
     if (!formats_.in_compute) record_shading(frame);
     if (t.listed) record_listed_shading(frame);
+    if (t.fine_columns > 0) record_fine_columns(frame);
     if (setting_.internal_filter) record_internal_filter(frame.commands);
     frame.timer->stop(frame.commands);
 
@@ -213,7 +233,8 @@ void KfrMethod::record(const MethodFrame& frame) {
     }
     if (setting_.inset > 0) {
         frame.timer->start(frame.commands, "pass_1");
-        record_native_inset(frame, now_->inset.get(), layouts_.shading.get(), t.map_set.get(), t.counts, 1);
+        record_native_inset(frame, now_->inset.get(), layouts_.shading.get(), t.map_set.get(), t.counts,
+                            kDiscQuery);
         frame.timer->stop(frame.commands);
     }
     t.fresh = false;
@@ -222,7 +243,7 @@ void KfrMethod::record(const MethodFrame& frame) {
 void KfrMethod::record_mask(const MethodFrame& frame) {
     KfrTargets& t = targets_.front();
     const VkCommandBuffer commands = frame.commands;
-    t.counts.reset(commands, 0);
+    t.counts.reset(commands, kTexelQuery);
     ResourceUse before = kUseDepthTest;
     before.layout = VK_IMAGE_LAYOUT_UNDEFINED;
     image_barrier(commands, t.mask, before, kUseDepthTarget);
@@ -230,10 +251,11 @@ void KfrMethod::record_mask(const MethodFrame& frame) {
         .view = t.mask.view(), .clear = true, .clear_depth = setting_.culling ? 0.0f : 1.0f};
     begin_rendering(commands, t.mask.extent(), {}, &depth);
     if (setting_.culling) {
-        t.counts.begin(commands, 0);
+        t.counts.begin(commands, kTexelQuery);
+        keep_to_columns(commands, t.buffer, t.fine_columns);
         push_jitter(commands, layouts_.mask.get(), frame.jitter);
         draw_fullscreen(commands, now_->mask.get(), layouts_.mask.get(), std::array{t.map_set.get()});
-        t.counts.end(commands, 0);
+        t.counts.end(commands, kTexelQuery);
     }
     vkCmdEndRendering(commands);
     image_barrier(commands, t.mask, kUseDepthTarget, kUseSampled);
@@ -251,10 +273,7 @@ void KfrMethod::record_shading(const MethodFrame& frame) {
     begin_rendering(frame.commands, t.reduced.extent(),
                     {ColorTarget{.view = t.reduced.view(), .clear = t.fresh}},
                     setting_.culling ? &depth : nullptr);
-    const VkExtent2D extent = t.reduced.extent();
-    const VkRect2D unlisted{{static_cast<std::int32_t>(t.listed_columns), 0},
-                            {extent.width - t.listed_columns, extent.height}};
-    vkCmdSetScissor(frame.commands, 0, 1, &unlisted);
+    keep_to_columns(frame.commands, t.buffer, std::max(t.listed_columns, t.fine_columns));
     push_jitter(frame.commands, layouts_.shading.get(), frame.jitter);
     draw_fullscreen(frame.commands, now_->shading.get(), layouts_.shading.get(),
                     std::array{frame.shading_set, t.map_set.get()});
@@ -291,15 +310,39 @@ void KfrMethod::record_listed_shading(const MethodFrame& frame) {
     image_barrier(commands, t.reduced, written, kUseSampled);
 }
 
+void KfrMethod::record_fine_columns(const MethodFrame& frame) {
+    KfrTargets& t = targets_.front();
+    const VkCommandBuffer commands = frame.commands;
+    t.counts.reset(commands, kDiscQuery);
+    image_barrier(commands, t.fine_pixels, kUseNone, kUseColorTarget);
+    begin_rendering(commands, t.fine_pixels.extent(),
+                    {ColorTarget{.view = t.fine_pixels.view(), .discard = true}});
+    // The screen, placed so that the square's corner is the image's.
+    const shared::vec2 corner = fine_corner(t.block), screen = t.block.screen_size;
+    const VkViewport viewport{-corner.x, -corner.y, screen.x, screen.y, 0, 1};
+    vkCmdSetViewport(commands, 0, 1, &viewport);
+    const VkRect2D on_screen = t.fine_square_on_screen();
+    vkCmdSetScissor(commands, 0, 1, &on_screen);
+    draw_gaze_disc(frame, now_->pixels.get(), layouts_.shading.get(), t.map_set.get(), t.counts, kDiscQuery);
+    vkCmdEndRendering(commands);
+    image_barrier(commands, t.fine_pixels, kUseColorTarget, kUseSampled);
+
+    image_barrier(commands, t.reduced, kUseSampled, kUseColorTarget);
+    begin_rendering(commands, t.reduced.extent(), {ColorTarget{.view = t.reduced.view()}});
+    const VkRect2D columns{{0, 0}, {t.fine_columns, side(t.buffer.height)}};
+    vkCmdSetScissor(commands, 0, 1, &columns);
+    push_jitter(commands, layouts_.resample.get(), frame.jitter);
+    draw_fullscreen(commands, now_->fine.get(), layouts_.resample.get(), std::array{t.fine_set.get()});
+    vkCmdEndRendering(commands);
+    image_barrier(commands, t.reduced, kUseColorTarget, kUseSampled);
+}
+
 void KfrMethod::record_internal_filter(VkCommandBuffer commands) {
     KfrTargets& t = targets_.front();
-    const std::uint32_t first = side(t.buffer.width / 2);
-    const VkRect2D peripheral{{static_cast<std::int32_t>(first), 0},
-                              {side(t.buffer.width) - first, side(t.buffer.height)}};
     const DepthTarget depth{.view = t.mask.view(), .read_only = true};
     const auto filter = [&](VkPipeline pipeline, const DescriptorSet& from, const ColorTarget& to) {
         begin_rendering(commands, t.reduced.extent(), {to}, setting_.culling ? &depth : nullptr);
-        vkCmdSetScissor(commands, 0, 1, &peripheral);
+        keep_to_columns(commands, t.buffer, side(t.buffer.width / 2));
         draw_fullscreen(commands, pipeline, layouts_.filter.get(), std::array{from.get()});
         vkCmdEndRendering(commands);
     };
@@ -338,9 +381,16 @@ MethodStatistics KfrMethod::statistics() const {
     const auto note = [&](bool built, const char* name, const char* when_built, const char* when_not) {
         (built ? statistics.built : statistics.left_out).push_back({name, built ? when_built : when_not});
     };
-    if (setting_.culling) statistics.shaded_samples = t.counts.count(0);
-    if (setting_.inset > 0) statistics.shaded_samples += t.counts.count(1);
+    if (setting_.culling) statistics.shaded_samples = t.counts.count(kTexelQuery);
+    if (setting_.inset > 0 || t.fine_columns > 0) statistics.shaded_samples += t.counts.count(kDiscQuery);
     note(setting_.culling, "culling", "only texels that a pixel reads are shaded", "switched off");
+    note(t.fine_columns > 0, "pixels for fine texels",
+         "around the gaze texels are finer than pixels and take their light",
+         !setting_.culling    ? "every texel is shaded"
+         : setting_.inset > 0 ? "the inset lies there"
+         : source_.thing != ShadedThing::meshes
+             ? "light differs within a pixel"
+             : "no texel is finer than pixels, or the gaze is off the screen");
     note(t.listed.has_value(), "list of texels",
          formats_.in_compute ? "samples are shaded one after another, whatever lies between them"
                              : "around the gaze, where needed texels are strewn among others",

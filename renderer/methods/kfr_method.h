@@ -1,6 +1,6 @@
 // Kernel foveated rendering (Meng, Du, Zwicker, Varshney 2018): shade a reduced log-polar buffer, then
-// stretch it over the screen. With exact culling: texels that no pixel reads are not shaded, and the picture
-// is the same.
+// stretch it over the screen. With exact culling: texels that no pixel reads are not shaded, those that must
+// look alike are shaded once, and the picture is the same.
 #pragma once
 
 #include <array>
@@ -32,6 +32,8 @@ class KfrMethod : public FoveationMethod {
         OwnedPipeline mask;
         OwnedPipeline shading;
         OwnedPipeline listed_shading;
+        OwnedPipeline pixels;
+        OwnedPipeline fine;
         OwnedPipeline filter_u;
         OwnedPipeline filter_v;
         OwnedPipeline resample;
@@ -46,6 +48,7 @@ class KfrMethod : public FoveationMethod {
     void record_mask(const MethodFrame& frame);
     void record_shading(const MethodFrame& frame);
     void record_listed_shading(const MethodFrame& frame);
+    void record_fine_columns(const MethodFrame& frame);
     void record_internal_filter(VkCommandBuffer commands);
     void record_resampling(const MethodFrame& frame, const GpuImage& target);
 

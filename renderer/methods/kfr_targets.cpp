@@ -10,6 +10,28 @@ namespace {
 
 constexpr float kLargestRimPx = 8;
 
+// How many columns, from the first, have no sample farther from its neighbours than pixels are, however
+// samples are shifted. Of the first half, which the internal filter leaves alone.
+std::uint32_t columns_finer_than_pixels(const shared::KernelMap& map) {
+    constexpr float kMostAreaPx = 0.998f;  // shaders may round otherwise
+    const auto is_fine = [&](float u) {
+        const shared::vec2 spacing = sample_spacing(map, {u, 0});
+        return spacing.x * spacing.y <= kMostAreaPx;
+    };
+    const auto most = static_cast<std::uint32_t>(map.buffer_size.x) / 2;
+    std::uint32_t columns = 0;
+    for (; columns < most; ++columns) {
+        const auto u = static_cast<float>(columns);
+        if (!is_fine(u) || !is_fine(u + 0.5f) || !is_fine(u + 1)) break;
+    }
+    return columns;
+}
+
+// The pixels that those columns lie in are at most so far from the gaze's, along either axis.
+float reach_of_columns(const shared::KernelMap& map, std::uint32_t columns) {
+    return columns == 0 ? 0 : std::ceil(radius_of_column(map, static_cast<float>(columns))) + 1;
+}
+
 constexpr Binding kMapBinding{0, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER};
 constexpr Binding kFirstImage{0, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER};
 constexpr Binding kReduced{2, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE};  // see pass_1_listed.glsl
@@ -25,7 +47,7 @@ GpuImage image_of(Gpu& gpu, SizePx size, VkFormat format, VkImageUsageFlags usag
 }  // namespace
 
 KfrTargets::KfrTargets(Gpu& gpu, const KfrFormats& formats, const TexelList::Maker& list_maker,
-                       const KfrSetting& wanted, SizePx wanted_screen)
+                       ShadedThing thing, const KfrSetting& wanted, SizePx wanted_screen)
     : setting(wanted),
       screen(wanted_screen),
       buffer(buffer_size(wanted_screen, wanted.kernel)),
@@ -39,6 +61,7 @@ KfrTargets::KfrTargets(Gpu& gpu, const KfrFormats& formats, const TexelList::Mak
       listed_set(gpu, {TexelList::kHeaderBinding, TexelList::kListBinding, kReduced}),
       reduced_set(gpu, {kFirstImage}),
       filtered_u_set(gpu, {kFirstImage}),
+      fine_set(gpu, {kMapBinding, kSecondImage}),
       resample_set(gpu, {kMapBinding, kSecondImage}),
       post_set(gpu, {kMapBinding, kSecondImage}) {
     const VkImageUsageFlags drawn = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
@@ -53,7 +76,18 @@ KfrTargets::KfrTargets(Gpu& gpu, const KfrFormats& formats, const TexelList::Mak
         mask = image_of(gpu, buffer, kKfrMaskFormat,
                         VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT);
     }
-    listed_columns = formats.in_compute ? mask.extent().width : mask && formats.lists ? strewn_columns() : 0;
+    if (shares_pixels(thing, setting)) {
+        // The gaze in the middle of the screen has the most.
+        const shared::KernelMap centred = make_kernel_map(screen, centre_of(screen), setting.kernel);
+        const float reach = reach_of_columns(centred, columns_finer_than_pixels(centred));
+        const int side = 2 * static_cast<int>(reach) + 1;
+        fine_pixels = image_of(gpu, {side, side}, formats.reduced, drawn | VK_IMAGE_USAGE_SAMPLED_BIT);
+        fine_set.set_buffer(0, map);
+        fine_set.set_sampled_image(1, fine_pixels.view(), sampler.get());
+    }
+    listed_columns = formats.in_compute                      ? mask.extent().width
+                     : mask && formats.lists && !fine_pixels ? strewn_columns()
+                                                             : 0;
     if (listed_columns > 0) {
         listed.emplace(gpu, list_maker, mask, listed_columns);
         listed->bind_to(listed_set);
@@ -90,7 +124,27 @@ void KfrTargets::set_gaze(PointPx wanted) {
     block = make_kernel_map(screen, gaze, setting.kernel);
     block.inset_px = static_cast<float>(setting.inset * shorter_side_px(screen));
     block.inset_rim_px = std::min(kLargestRimPx, 0.5f * block.inset_px);
+    if (fine_pixels) set_fine_columns();
     map.write(block);
+}
+
+void KfrTargets::set_fine_columns() {
+    // Samples off the screen take its edge, which is as near only to a gaze on it.
+    const bool on_screen = gaze.x >= 0 && gaze.y >= 0 && gaze.x <= screen.width && gaze.y <= screen.height;
+    const auto most = static_cast<float>(fine_pixels.extent().width / 2);
+    fine_columns = on_screen ? columns_finer_than_pixels(block) : 0;
+    while (reach_of_columns(block, fine_columns) > most) --fine_columns;
+    block.fine_px = reach_of_columns(block, fine_columns);
+}
+
+VkRect2D KfrTargets::fine_square_on_screen() const {
+    const shared::vec2 corner = fine_corner(block);
+    const float last_side = 2 * block.fine_px + 1;
+    const float left = std::max(-corner.x, 0.0f), top = std::max(-corner.y, 0.0f);
+    const float right = std::min(block.screen_size.x - corner.x, last_side);
+    const float bottom = std::min(block.screen_size.y - corner.y, last_side);
+    return {{static_cast<std::int32_t>(left), static_cast<std::int32_t>(top)},
+            {static_cast<std::uint32_t>(right - left), static_cast<std::uint32_t>(bottom - top)}};
 }
 
 KfrLayouts::KfrLayouts(Gpu& gpu, VkDescriptorSetLayout shading_layout)

@@ -37,8 +37,14 @@ inline constexpr VkFormat kKfrScreenFormat = VK_FORMAT_R16G16B16A16_SFLOAT;
 
 class KfrTargets {
   public:
-    KfrTargets(Gpu& gpu, const KfrFormats& formats, const TexelList::Maker& list_maker,
+    KfrTargets(Gpu& gpu, const KfrFormats& formats, const TexelList::Maker& list_maker, ShadedThing thing,
                const KfrSetting& setting, SizePx screen);
+
+    // Whether texels that are finer than pixels take the light of the pixel that they lie in: only meshes,
+    // cut into pixels before they are lit, look the same all over one.
+    static bool shares_pixels(ShadedThing thing, const KfrSetting& setting) {
+        return thing == ShadedThing::meshes && setting.culling && setting.inset == 0;
+    }
 
     bool serves(const KfrSetting& wanted, SizePx wanted_screen) const {
         return wanted == setting && wanted_screen == screen;
@@ -56,22 +62,28 @@ class KfrTargets {
     shared::KernelMap block{};  // what `map` holds
     GpuBuffer map;
     GpuImage mask;  // depth 1 where a texel is needed, else 0; with culling or in compute shaders
+    std::uint32_t fine_columns = 0;    // from the first, that take the light of pixels, at this gaze
+    GpuImage fine_pixels;              // those pixels, see fine_corner()
     std::uint32_t listed_columns = 0;  // whose needed texels are listed
     std::optional<TexelList> listed;
     GpuImage reduced;        // what Pass I shades and Pass II reads
     GpuImage filtered_u;     // `reduced` after the first half of the internal filter
     GpuImage screen_linear;  // Pass II's result for the post filter
-    SampleCounter counts;    // 0: texels needed, 1: pixels of the inset
+    SampleCounter counts;    // 0: texels needed beyond the fine columns, 1: pixels of the inset or for those
     OwnedSampler sampler;
     DescriptorSet map_set;         // 0: map
     DescriptorSet listed_set;      // 0 and 1: listed, 2: reduced
     DescriptorSet reduced_set;     // 0: reduced
     DescriptorSet filtered_u_set;  // 0: filtered_u
+    DescriptorSet fine_set;        // 0: map, 1: fine_pixels
     DescriptorSet resample_set;    // 0: map, 1: reduced
     DescriptorSet post_set;        // 0: map, 1: screen_linear
 
+    VkRect2D fine_square_on_screen() const;  // of fine_pixels, the part that lies on the screen
+
   private:
     std::uint32_t strewn_columns() const;
+    void set_fine_columns();
 
     bool has_gaze_ = false;
 };

@@ -43,7 +43,7 @@ struct KernelMap {
     float mar_slope;       // k of kKernelLinearMar, 1 / pixel
     float mar_start;       // and r0, pixels
     uint doublings;        // kKernelPower: alpha = 2^doublings, or kAnyAlpha
-    float pad_0;
+    float fine_px;         // see fine_corner(); whole; 0: every texel is shaded
 };
 
 // x^alpha and x^(1 / alpha): products and roots alone where that is enough.
@@ -147,6 +147,13 @@ SHARED_FUNCTION float radial_spacing(KernelMap map, float u, float radius) {
 SHARED_FUNCTION vec2 sample_spacing(KernelMap map, vec2 position) {
     float radius = radius_of_column(map, position.x);
     return vec2(radial_spacing(map, position.x, radius), radius * (2.0f * kMapPi) / map.buffer_size.y);
+}
+
+// Where a scene's light is the same all over a pixel and the texels of the first columns are finer than
+// pixels, these take the light of the pixel that they lie in, instead of being shaded: of a square of 2
+// fine_px + 1 pixels around the gaze's own, of which this is the corner.
+SHARED_FUNCTION vec2 fine_corner(KernelMap map) {
+    return vec2(floor(map.gaze.x) - map.fine_px, floor(map.gaze.y) - map.fine_px);
 }
 
 SHARED_END

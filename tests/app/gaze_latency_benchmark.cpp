@@ -51,7 +51,9 @@ void report(benchmark::State& state, const std::string& name, const std::vector<
 // What the frame loop does with samples, up to the kernel maps that the shaders read.
 class FoveatedEyes {
   public:
-    FoveatedEyes() : foveation_(tracked(), eyes_.view()), targets_(gpu_, {}, list_maker_, {}, kEyePicture) {}
+    FoveatedEyes()
+        : foveation_(tracked(), eyes_.view()),
+          targets_(gpu_, {}, list_maker_, ShadedThing::meshes, {}, kEyePicture) {}
 
     // Chooses the foveation point, turns it into each eye's own, and writes the maps.
     void take(std::span<const GazeSample> samples) {

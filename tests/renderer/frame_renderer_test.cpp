@@ -58,7 +58,26 @@ TEST_P(FrameRendererScenes, PictureIsBitByBitTheSameWithAndWithoutCullingAndFrom
     const SizePx size{320, 180};
     const CameraView view = view_through(scene.cameras[0], size);
     const Image first = renderer.render(size, view, kfr(), {160, 90}).image;
-    EXPECT_TRUE(renderer.render(size, view, kfr({{"culling", 0}}), {160, 90}).image == first);
+    // Drawn in turn, so that what is not shaded holds the remains of other gazes.
+    for (const bool in_compute : {false, true}) {
+        FrameRenderer drawing(gpu, scene, {.shade_in_compute = in_compute});
+        for (const PointPx gaze : {PointPx{160, 90}, PointPx{0, 0}, PointPx{320, 180}, PointPx{319.5, 0.4},
+                                   PointPx{37.3, 120.6}, PointPx{-6, 90}, PointPx{900, -300}}) {
+            for (const std::map<std::string, double>& numbers :
+                 std::vector<std::map<std::string, double>>{{},
+                                                            {{"alpha", 1}, {"sigma", 0.8}},
+                                                            {{"as_printed", 1}},
+                                                            {{"inset", 0.1}},
+                                                            {{"taa", 3}}}) {
+                RenderMethod culled = kfr(numbers), whole = kfr(numbers);
+                whole.numbers["culling"] = 0;
+                EXPECT_TRUE(drawing.render(size, view, culled, gaze).image ==
+                            drawing.render(size, view, whole, gaze).image)
+                    << gaze.x << ", " << gaze.y << (numbers.empty() ? "" : numbers.begin()->first)
+                    << (in_compute ? " in compute" : "");
+            }
+        }
+    }
     renderer.render({200, 100}, view_through(scene.cameras[0], SizePx{200, 100}), kfr({{"sigma", 2.4}}),
                     {0, 0});
     EXPECT_TRUE(renderer.render(size, view, kfr(), {160, 90}).image == first);
@@ -97,6 +116,26 @@ TEST_P(FrameRendererScenes, TellWhatAFrameCost) {
 
 INSTANTIATE_TEST_SUITE_P(BuiltIn, FrameRendererScenes, testing::Values("primitives", "atrium"),
                          [](const auto& scene) { return std::string(scene.param); });
+
+TEST(FrameRenderer, TexelsFinerThanPixelsTakeTheirPixelsLightInScenesOfMeshesAlone) {
+    Gpu gpu({.validation = true});
+    const SizePx size{640, 360};
+    std::map<std::string, std::uint64_t> shaded;
+    for (const char* name : {"primitives", "atrium"}) {
+        const Scene scene = load_scene(name);
+        FrameRenderer renderer(gpu, scene);
+        const FrameStatistics statistics =
+            renderer.render(size, view_through(scene.cameras.front(), size), kfr(), centre_of(size), false)
+                .statistics;
+        shaded[name] = statistics.shaded_samples;
+        const bool takes = std::ranges::find(statistics.built, "pixels for fine texels",
+                                             &FeatureNote::name) != statistics.built.end();
+        EXPECT_EQ(takes, std::string(name) == "atrium");
+    }
+    EXPECT_LT(static_cast<double>(shaded["atrium"]), 0.95 * static_cast<double>(shaded["primitives"]));
+    EXPECT_GT(static_cast<double>(shaded["atrium"]), 0.7 * static_cast<double>(shaded["primitives"]));
+    EXPECT_TRUE(gpu.validation_messages().empty()) << gpu.validation_messages().front();
+}
 
 TEST(FrameRenderer, ComputeShadersLightScenesAsFragmentsDo) {
     Gpu gpu({.validation = true});
