@@ -142,10 +142,6 @@ inline constexpr ResourceUse kUseSampled{
 inline constexpr ResourceUse kUseComputeStorage{
     VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
     VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT, VK_IMAGE_LAYOUT_GENERAL};
-// A storage image or buffer in fragment shaders.
-inline constexpr ResourceUse kUseFragmentStorage{
-    VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT,
-    VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT, VK_IMAGE_LAYOUT_GENERAL};
 inline constexpr ResourceUse kUseTransferSource{VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT,
                                                 VK_ACCESS_2_TRANSFER_READ_BIT,
                                                 VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL};

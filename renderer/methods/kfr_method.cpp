@@ -17,18 +17,15 @@
 #include "shader_code/pass_1_compute_picture.h"
 #include "shader_code/pass_1_compute_primitives.h"
 #include "shader_code/pass_1_fine.h"
-#include "shader_code/pass_1_listed_meshes.h"
-#include "shader_code/pass_1_listed_picture.h"
-#include "shader_code/pass_1_listed_primitives.h"
 #include "shader_code/pass_1_meshes.h"
 #include "shader_code/pass_1_picture.h"
 #include "shader_code/pass_1_pixels_meshes.h"
+#include "shader_code/pass_1_pixels_primitives.h"
 #include "shader_code/pass_1_primitives.h"
 #include "shader_code/pass_2.h"
 #include "shader_code/pass_2_exact.h"
 #include "shader_code/post_filter.h"
 #include "shader_code/read_mask.h"
-#include "shader_code/texel_list_vert.h"
 
 namespace parafovea {
 namespace {
@@ -41,10 +38,9 @@ constexpr std::uint32_t kTexelQuery = 0, kDiscQuery = 1;
 
 const ShadingCode kComputeShading{shader_code::pass_1_compute_meshes, shader_code::pass_1_compute_primitives,
                                   shader_code::pass_1_compute_picture};
-const ShadingCode kListedShading{shader_code::pass_1_listed_meshes, shader_code::pass_1_listed_primitives,
-                                 shader_code::pass_1_listed_picture};
 const ShadingCode kShading{shader_code::pass_1_meshes, shader_code::pass_1_primitives,
                            shader_code::pass_1_picture};
+const ShadingCode kPixelShading{shader_code::pass_1_pixels_meshes, shader_code::pass_1_pixels_primitives, {}};
 
 std::uint32_t side(int pixels) {
     return static_cast<std::uint32_t>(pixels);
@@ -160,20 +156,14 @@ KfrMethod::Pipelines KfrMethod::make_pipelines() const {
     shading.constants = source_.constants;
     shading.constants.insert(shading.constants.end(), map_constants.begin(), map_constants.end());
     if (formats_.in_compute) {
-        made.listed_shading = make_compute_pipeline(gpu_, kComputeShading.of(source_.thing),
-                                                    layouts_.listed_shading.get(), shading.constants);
+        made.shading = make_compute_pipeline(gpu_, kComputeShading.of(source_.thing),
+                                             layouts_.listed_shading.get(), shading.constants);
     } else {
         made.shading = make_graphics_pipeline(gpu_, shading);
-        GraphicsPipelineDescription listed;
-        listed.vertex = shader_code::texel_list_vert;
-        listed.fragment = kListedShading.of(source_.thing);
-        listed.layout = layouts_.listed_shading.get();
-        listed.constants = shading.constants;
-        if (setting_.culling && formats_.lists) made.listed_shading = make_graphics_pipeline(gpu_, listed);
     }
-    if (KfrTargets::shares_pixels(source_.thing, setting_)) {
+    if (setting_.culling && KfrTargets::takes_light_of_pixels(source_.thing, setting_)) {
         made.pixels =
-            make_graphics_pipeline(gpu_, gaze_disc(shader_code::pass_1_pixels_meshes, layouts_.shading.get(),
+            make_graphics_pipeline(gpu_, gaze_disc(kPixelShading.of(source_.thing), layouts_.shading.get(),
                                                    formats_.reduced, shading.constants));
         made.fine = make_fullscreen_pipeline(gpu_, shader_code::pass_1_fine, layouts_.resample.get(),
                                              {formats_.reduced}, map_constants);
@@ -206,9 +196,11 @@ void KfrMethod::record(const MethodFrame& frame) {
     KfrTargets& t = targets_.front();
     frame.timer->start(frame.commands, "pass_1");
     if (t.mask && (t.mask_stale || t.mask_jitter != frame.jitter)) record_mask(frame);
-    if (!formats_.in_compute) record_shading(frame);
-    if (t.listed) record_listed_shading(frame);
-    if (t.fine_columns > 0) record_fine_columns(frame);
+    if (formats_.in_compute)
+        record_listed_shading(frame);
+    else
+        record_shading(frame);
+    if (t.culled_columns() > 0) record_fine_columns(frame);
     if (setting_.internal_filter) record_internal_filter(frame.commands);
     frame.timer->stop(frame.commands);
 
@@ -252,7 +244,7 @@ void KfrMethod::record_mask(const MethodFrame& frame) {
     begin_rendering(commands, t.mask.extent(), {}, &depth);
     if (setting_.culling) {
         t.counts.begin(commands, kTexelQuery);
-        keep_to_columns(commands, t.buffer, t.fine_columns);
+        keep_to_columns(commands, t.buffer, t.culled_columns());
         push_jitter(commands, layouts_.mask.get(), frame.jitter);
         draw_fullscreen(commands, now_->mask.get(), layouts_.mask.get(), std::array{t.map_set.get()});
         t.counts.end(commands, kTexelQuery);
@@ -273,7 +265,7 @@ void KfrMethod::record_shading(const MethodFrame& frame) {
     begin_rendering(frame.commands, t.reduced.extent(),
                     {ColorTarget{.view = t.reduced.view(), .clear = t.fresh}},
                     setting_.culling ? &depth : nullptr);
-    keep_to_columns(frame.commands, t.buffer, std::max(t.listed_columns, t.fine_columns));
+    keep_to_columns(frame.commands, t.buffer, t.culled_columns());
     push_jitter(frame.commands, layouts_.shading.get(), frame.jitter);
     draw_fullscreen(frame.commands, now_->shading.get(), layouts_.shading.get(),
                     std::array{frame.shading_set, t.map_set.get()});
@@ -284,30 +276,21 @@ void KfrMethod::record_shading(const MethodFrame& frame) {
 void KfrMethod::record_listed_shading(const MethodFrame& frame) {
     KfrTargets& t = targets_.front();
     const VkCommandBuffer commands = frame.commands;
-    if (formats_.in_compute && t.fresh) {
+    if (t.fresh) {
         image_barrier(commands, t.reduced, kUseNone, kUseTransferTarget);
         const VkClearColorValue black{};
         const VkImageSubresourceRange all{VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
         vkCmdClearColorImage(commands, t.reduced.get(), kUseTransferTarget.layout, &black, 1, &all);
         image_barrier(commands, t.reduced, kUseTransferTarget, kUseSampled);
     }
-    const ResourceUse written = formats_.in_compute ? kUseComputeStorage : kUseFragmentStorage;
-    const VkPipelineBindPoint point =
-        formats_.in_compute ? VK_PIPELINE_BIND_POINT_COMPUTE : VK_PIPELINE_BIND_POINT_GRAPHICS;
-    image_barrier(commands, t.reduced, kUseSampled, written);
-    vkCmdBindPipeline(commands, point, now_->listed_shading.get());
+    image_barrier(commands, t.reduced, kUseSampled, kUseComputeStorage);
+    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, now_->shading.get());
     push_jitter(commands, layouts_.listed_shading.get(), frame.jitter);
     const std::array sets{frame.shading_set, t.map_set.get(), t.listed_set.get()};
-    vkCmdBindDescriptorSets(commands, point, layouts_.listed_shading.get(), 0, sets.size(), sets.data(), 0,
-                            nullptr);
-    if (formats_.in_compute) {
-        t.listed->dispatch(commands);
-    } else {
-        begin_rendering(commands, t.listed->extent(), {});
-        t.listed->draw(commands);
-        vkCmdEndRendering(commands);
-    }
-    image_barrier(commands, t.reduced, written, kUseSampled);
+    vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, layouts_.listed_shading.get(), 0,
+                            sets.size(), sets.data(), 0, nullptr);
+    t.listed->dispatch(commands);
+    image_barrier(commands, t.reduced, kUseComputeStorage, kUseSampled);
 }
 
 void KfrMethod::record_fine_columns(const MethodFrame& frame) {
@@ -318,7 +301,7 @@ void KfrMethod::record_fine_columns(const MethodFrame& frame) {
     begin_rendering(commands, t.fine_pixels.extent(),
                     {ColorTarget{.view = t.fine_pixels.view(), .discard = true}});
     // The screen, placed so that the square's corner is the image's.
-    const shared::vec2 corner = fine_corner(t.block), screen = t.block.screen_size;
+    const shared::vec2 corner = t.block.fine_corner, screen = t.block.screen_size;
     const VkViewport viewport{-corner.x, -corner.y, screen.x, screen.y, 0, 1};
     vkCmdSetViewport(commands, 0, 1, &viewport);
     const VkRect2D on_screen = t.fine_square_on_screen();
@@ -329,7 +312,7 @@ void KfrMethod::record_fine_columns(const MethodFrame& frame) {
 
     image_barrier(commands, t.reduced, kUseSampled, kUseColorTarget);
     begin_rendering(commands, t.reduced.extent(), {ColorTarget{.view = t.reduced.view()}});
-    const VkRect2D columns{{0, 0}, {t.fine_columns, side(t.buffer.height)}};
+    const VkRect2D columns{{0, 0}, {t.culled_columns(), side(t.buffer.height)}};
     vkCmdSetScissor(commands, 0, 1, &columns);
     push_jitter(commands, layouts_.resample.get(), frame.jitter);
     draw_fullscreen(commands, now_->fine.get(), layouts_.resample.get(), std::array{t.fine_set.get()});
@@ -382,21 +365,13 @@ MethodStatistics KfrMethod::statistics() const {
         (built ? statistics.built : statistics.left_out).push_back({name, built ? when_built : when_not});
     };
     if (setting_.culling) statistics.shaded_samples = t.counts.count(kTexelQuery);
-    if (setting_.inset > 0 || t.fine_columns > 0) statistics.shaded_samples += t.counts.count(kDiscQuery);
+    if (setting_.inset > 0 || t.culled_columns() > 0) statistics.shaded_samples += t.counts.count(kDiscQuery);
     note(setting_.culling, "culling", "only texels that a pixel reads are shaded", "switched off");
-    note(t.fine_columns > 0, "pixels for fine texels",
-         "around the gaze texels are finer than pixels and take their light",
+    note(t.culled_columns() > 0, "pixels for fine texels",
+         "around the gaze, where texels are finer than pixels, light is found once for those in a pixel",
          !setting_.culling    ? "every texel is shaded"
          : setting_.inset > 0 ? "the inset lies there"
-         : source_.thing != ShadedThing::meshes
-             ? "light differs within a pixel"
-             : "no texel is finer than pixels, or the gaze is off the screen");
-    note(t.listed.has_value(), "list of texels",
-         formats_.in_compute ? "samples are shaded one after another, whatever lies between them"
-                             : "around the gaze, where needed texels are strewn among others",
-         setting_.culling
-             ? "hardly a texel would be left out, or the device cannot write the buffer from shaders"
-             : "every texel is shaded");
+                              : "no texel is finer than pixels, or the gaze is off the screen");
     note(formats_.in_compute, "Pass I in compute shaders", "not a software device, or asked for",
          "a software device is faster with fragments, or the device's compute shaders cannot write the "
          "buffer");

@@ -30,8 +30,7 @@ class KfrMethod : public FoveationMethod {
   private:
     struct Pipelines {
         OwnedPipeline mask;
-        OwnedPipeline shading;
-        OwnedPipeline listed_shading;
+        OwnedPipeline shading;  // in compute shaders: of a list
         OwnedPipeline pixels;
         OwnedPipeline fine;
         OwnedPipeline filter_u;

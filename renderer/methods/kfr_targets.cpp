@@ -10,13 +10,20 @@ namespace {
 
 constexpr float kLargestRimPx = 8;
 
-// How many columns, from the first, have no sample farther from its neighbours than pixels are, however
-// samples are shifted. Of the first half, which the internal filter leaves alone.
-std::uint32_t columns_finer_than_pixels(const shared::KernelMap& map) {
-    constexpr float kMostAreaPx = 0.998f;  // shaders may round otherwise
+// Up to what area of the screen each, in pixels, texels have the light of the pixel that they lie in. In
+// meshes, cut into pixels anyway, they look no different for it, up to a whole one (less what shaders may
+// round otherwise). Where each sample has rays of its own, pixels' light is nearer to full resolution up to
+// about half a pixel (PSNR of `primitives`, 16 rays a sample), beyond that between neighbours is.
+float most_fine_area(ShadedThing thing) {
+    return thing == ShadedThing::meshes ? 0.998f : 0.5f;
+}
+
+// How many columns, from the first, have no larger texels, however samples are shifted. Of the first half,
+// which the internal filter leaves alone.
+std::uint32_t columns_finer_than(const shared::KernelMap& map, float most_area) {
     const auto is_fine = [&](float u) {
         const shared::vec2 spacing = sample_spacing(map, {u, 0});
-        return spacing.x * spacing.y <= kMostAreaPx;
+        return spacing.x * spacing.y <= most_area;
     };
     const auto most = static_cast<std::uint32_t>(map.buffer_size.x) / 2;
     std::uint32_t columns = 0;
@@ -34,7 +41,7 @@ float reach_of_columns(const shared::KernelMap& map, std::uint32_t columns) {
 
 constexpr Binding kMapBinding{0, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER};
 constexpr Binding kFirstImage{0, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER};
-constexpr Binding kReduced{2, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE};  // see pass_1_listed.glsl
+constexpr Binding kReduced{2, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE};  // see pass_1.comp
 constexpr Binding kSecondImage{1, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER};
 
 GpuImage image_of(Gpu& gpu, SizePx size, VkFormat format, VkImageUsageFlags usage) {
@@ -67,7 +74,7 @@ KfrTargets::KfrTargets(Gpu& gpu, const KfrFormats& formats, const TexelList::Mak
     const VkImageUsageFlags drawn = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
     reduced = image_of(gpu, buffer, formats.reduced,
                        drawn | VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT |
-                           (formats.lists ? VK_IMAGE_USAGE_STORAGE_BIT : 0));
+                           (formats.in_compute ? VK_IMAGE_USAGE_STORAGE_BIT : 0));
     if (setting.internal_filter) {
         filtered_u = image_of(gpu, buffer, formats.reduced, drawn | VK_IMAGE_USAGE_SAMPLED_BIT);
         filtered_u_set.set_sampled_image(0, filtered_u.view(), sampler.get());
@@ -76,20 +83,20 @@ KfrTargets::KfrTargets(Gpu& gpu, const KfrFormats& formats, const TexelList::Mak
         mask = image_of(gpu, buffer, kKfrMaskFormat,
                         VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT);
     }
-    if (shares_pixels(thing, setting)) {
+    if (takes_light_of_pixels(thing, setting)) {
         // The gaze in the middle of the screen has the most.
         const shared::KernelMap centred = make_kernel_map(screen, centre_of(screen), setting.kernel);
-        const float reach = reach_of_columns(centred, columns_finer_than_pixels(centred));
-        const int side = 2 * static_cast<int>(reach) + 1;
+        most_fine_area_ = most_fine_area(thing);
+        most_fine_px_ = reach_of_columns(centred, columns_finer_than(centred, most_fine_area_));
+    }
+    if (setting.culling && most_fine_px_ > 0) {
+        const int side = 2 * static_cast<int>(most_fine_px_) + 1;
         fine_pixels = image_of(gpu, {side, side}, formats.reduced, drawn | VK_IMAGE_USAGE_SAMPLED_BIT);
         fine_set.set_buffer(0, map);
         fine_set.set_sampled_image(1, fine_pixels.view(), sampler.get());
     }
-    listed_columns = formats.in_compute                      ? mask.extent().width
-                     : mask && formats.lists && !fine_pixels ? strewn_columns()
-                                                             : 0;
-    if (listed_columns > 0) {
-        listed.emplace(gpu, list_maker, mask, listed_columns);
+    if (formats.in_compute) {
+        listed.emplace(gpu, list_maker, mask);
         listed->bind_to(listed_set);
         listed_set.set_storage_image(kReduced.binding, reduced.view());
     }
@@ -104,18 +111,6 @@ KfrTargets::KfrTargets(Gpu& gpu, const KfrFormats& formats, const TexelList::Mak
     post_set.set_buffer(0, map);
 }
 
-// How many columns lie so close to the gaze that pixels leave many of their texels out: those whose rows are
-// less than kStrewnBelowPx apart. The gaze in the middle of the screen has the most. Beyond, a list would
-// save hardly a block, and writing storage images costs llvmpipe more (56 ns a texel).
-std::uint32_t KfrTargets::strewn_columns() const {
-    constexpr float kStrewnBelowPx = 0.75f;
-    const float radius = kStrewnBelowPx * static_cast<float>(buffer.height) / (2 * std::numbers::pi_v<float>);
-    if (setting.inset * shorter_side_px(screen) > radius) return 0;
-    const shared::KernelMap centred = make_kernel_map(screen, centre_of(screen), setting.kernel);
-    const float u = buffer_from_screen(centred, {centred.gaze.x + radius, centred.gaze.y}).x;
-    return std::min(static_cast<std::uint32_t>(std::ceil(u / 4)) * 4, mask.extent().width);
-}
-
 void KfrTargets::set_gaze(PointPx wanted) {
     if (has_gaze_ && wanted == gaze) return;
     gaze = wanted;
@@ -124,21 +119,22 @@ void KfrTargets::set_gaze(PointPx wanted) {
     block = make_kernel_map(screen, gaze, setting.kernel);
     block.inset_px = static_cast<float>(setting.inset * shorter_side_px(screen));
     block.inset_rim_px = std::min(kLargestRimPx, 0.5f * block.inset_px);
-    if (fine_pixels) set_fine_columns();
+    if (most_fine_px_ > 0) set_fine_columns();
     map.write(block);
 }
 
 void KfrTargets::set_fine_columns() {
     // Samples off the screen take its edge, which is as near only to a gaze on it.
     const bool on_screen = gaze.x >= 0 && gaze.y >= 0 && gaze.x <= screen.width && gaze.y <= screen.height;
-    const auto most = static_cast<float>(fine_pixels.extent().width / 2);
-    fine_columns = on_screen ? columns_finer_than_pixels(block) : 0;
-    while (reach_of_columns(block, fine_columns) > most) --fine_columns;
-    block.fine_px = reach_of_columns(block, fine_columns);
+    std::uint32_t columns = on_screen ? columns_finer_than(block, most_fine_area_) : 0;
+    while (reach_of_columns(block, columns) > most_fine_px_) --columns;
+    block.fine_columns = static_cast<float>(columns);
+    block.fine_px = reach_of_columns(block, columns);
+    block.fine_corner = {std::floor(block.gaze.x) - block.fine_px, std::floor(block.gaze.y) - block.fine_px};
 }
 
 VkRect2D KfrTargets::fine_square_on_screen() const {
-    const shared::vec2 corner = fine_corner(block);
+    const shared::vec2 corner = block.fine_corner;
     const float last_side = 2 * block.fine_px + 1;
     const float left = std::max(-corner.x, 0.0f), top = std::max(-corner.y, 0.0f);
     const float right = std::min(block.screen_size.x - corner.x, last_side);

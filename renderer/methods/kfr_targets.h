@@ -27,8 +27,7 @@ struct KfrFormats {
     VkFormat target = VK_FORMAT_R8G8B8A8_SRGB;
     VkFormat reduced =
         VK_FORMAT_R16G16B16A16_UNORM;  // display-linear values in [0, 1]; finer than halves near 1
-    bool lists = false;                // shaders can write the reduced buffer as a storage image
-    bool in_compute = false;           // Pass I runs in compute shaders; needs `lists`
+    bool in_compute = false;  // Pass I runs in compute shaders, which can write `reduced` as a storage image
     bool exact_bilinear = false;  // Pass II interpolates with full float weights instead of the sampler's
 };
 
@@ -40,10 +39,10 @@ class KfrTargets {
     KfrTargets(Gpu& gpu, const KfrFormats& formats, const TexelList::Maker& list_maker, ShadedThing thing,
                const KfrSetting& setting, SizePx screen);
 
-    // Whether texels that are finer than pixels take the light of the pixel that they lie in: only meshes,
-    // cut into pixels before they are lit, look the same all over one.
-    static bool shares_pixels(ShadedThing thing, const KfrSetting& setting) {
-        return thing == ShadedThing::meshes && setting.culling && setting.inset == 0;
+    // Whether texels that are finer than pixels have the light of the pixel that they lie in, as scenes at
+    // full resolution have; meshes are cut into pixels anyway. Not below an inset.
+    static bool takes_light_of_pixels(ShadedThing thing, const KfrSetting& setting) {
+        return thing != ShadedThing::picture && setting.inset == 0;
     }
 
     bool serves(const KfrSetting& wanted, SizePx wanted_screen) const {
@@ -61,15 +60,13 @@ class KfrTargets {
 
     shared::KernelMap block{};  // what `map` holds
     GpuBuffer map;
-    GpuImage mask;  // depth 1 where a texel is needed, else 0; with culling or in compute shaders
-    std::uint32_t fine_columns = 0;    // from the first, that take the light of pixels, at this gaze
-    GpuImage fine_pixels;              // those pixels, see fine_corner()
-    std::uint32_t listed_columns = 0;  // whose needed texels are listed
-    std::optional<TexelList> listed;
-    GpuImage reduced;        // what Pass I shades and Pass II reads
-    GpuImage filtered_u;     // `reduced` after the first half of the internal filter
-    GpuImage screen_linear;  // Pass II's result for the post filter
-    SampleCounter counts;    // 0: texels needed beyond the fine columns, 1: pixels of the inset or for those
+    GpuImage mask;         // depth 1 where a texel is needed, else 0; with culling or in compute shaders
+    GpuImage fine_pixels;  // with culling: the pixels whose light fine texels take
+    std::optional<TexelList> listed;  // in compute shaders: the needed texels
+    GpuImage reduced;                 // what Pass I shades and Pass II reads
+    GpuImage filtered_u;              // `reduced` after the first half of the internal filter
+    GpuImage screen_linear;           // Pass II's result for the post filter
+    SampleCounter counts;  // 0: texels needed beyond the fine columns, 1: pixels of the inset or for those
     OwnedSampler sampler;
     DescriptorSet map_set;         // 0: map
     DescriptorSet listed_set;      // 0 and 1: listed, 2: reduced
@@ -79,12 +76,17 @@ class KfrTargets {
     DescriptorSet resample_set;    // 0: map, 1: reduced
     DescriptorSet post_set;        // 0: map, 1: screen_linear
 
+    // The first columns, which are not shaded texel by texel.
+    std::uint32_t culled_columns() const {
+        return setting.culling ? static_cast<std::uint32_t>(block.fine_columns) : 0;
+    }
     VkRect2D fine_square_on_screen() const;  // of fine_pixels, the part that lies on the screen
 
   private:
-    std::uint32_t strewn_columns() const;
     void set_fine_columns();
 
+    float most_fine_area_ = 0;
+    float most_fine_px_ = 0;  // of all gazes
     bool has_gaze_ = false;
 };
 

@@ -80,11 +80,9 @@ const std::vector<MethodName>& method_names() {
 
 std::unique_ptr<FoveationMethod> make_method(Gpu& gpu, const std::string& name, const ShadingSource& source) {
     const VkFormat reduced = display_linear_format(gpu);
-    const bool lists = shaders_can_write(gpu, reduced);
     const KfrFormats formats{.target = kTargetFormat,
                              .reduced = reduced,
-                             .lists = lists,
-                             .in_compute = source.in_compute && lists};
+                             .in_compute = source.in_compute && shaders_can_write(gpu, reduced)};
     if (name == "full") return std::make_unique<FullMethod>(gpu, source, kTargetFormat);
     if (name == "kfr") return std::make_unique<KfrMethod>(gpu, source, formats);
     if (name == "log_polar") return std::make_unique<LogPolarMethod>(gpu, source, formats);

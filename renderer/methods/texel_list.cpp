@@ -1,7 +1,6 @@
 // Makes the list of texels with three compute shaders.
 #include "renderer/methods/texel_list.h"
 
-#include <bit>
 #include <cstddef>
 #include <span>
 
@@ -16,21 +15,15 @@ namespace {
 constexpr std::uint32_t kRowsOfGroup = 64;  // see texel_list.comp
 
 constexpr ResourceUse kUseHeader{
-    VK_PIPELINE_STAGE_2_ALL_GRAPHICS_BIT | VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
+    VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT | VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
     VK_ACCESS_2_UNIFORM_READ_BIT | VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT, VK_IMAGE_LAYOUT_UNDEFINED};
 // Whatever it held is of no interest.
 constexpr ResourceUse kUseOldList{kUseSampled.stages, kUseSampled.accesses, VK_IMAGE_LAYOUT_UNDEFINED};
 
-// As few rows as the device's width allows: software devices hand tiles of 64 x 64 to their processors, and
-// so none is left alone with a full one at the end.
-GpuImage list_image(Gpu& gpu, std::uint64_t texels) {
-    std::uint32_t rows = 8;
-    while (texels / rows + 4 > gpu.limits().maxImageDimension2D) rows *= 2;
-    // Columns in fours; see pass_1_listed.frag.
-    const std::uint64_t fours_of_columns = (texels + 4 * rows - 1) / (4 * rows);
+GpuImage list_image(Gpu& gpu, std::uint32_t texels) {
     return GpuImage(gpu, {.format = VK_FORMAT_R32_UINT,
-                          .width = static_cast<std::uint32_t>(4 * fours_of_columns),
-                          .height = rows,
+                          .width = shared::kListWidth,
+                          .height = (texels + shared::kListWidth - 1) / shared::kListWidth,
                           .usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT});
 }
 
@@ -57,24 +50,22 @@ TexelList::Maker::Maker(Gpu& gpu)
       list(make_compute_pipeline(gpu, shader_code::texel_list, layout.get())),
       nearest(make_sampler(gpu, {.filter = VK_FILTER_NEAREST, .mipmap = VK_SAMPLER_MIPMAP_MODE_NEAREST})) {}
 
-TexelList::TexelList(Gpu& gpu, const Maker& maker, const GpuImage& mask, std::uint32_t columns)
+TexelList::TexelList(Gpu& gpu, const Maker& maker, const GpuImage& mask)
     : height_(mask.extent().height),
-      words_of_row_((columns + shared::kTexelsPerWord - 1) / shared::kTexelsPerWord),
+      words_of_row_((mask.extent().width + shared::kTexelsPerWord - 1) / shared::kTexelsPerWord),
       header_(gpu, sizeof(shared::TexelListHeader),
               VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT |
                   VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
               BufferPlace::device),
-      listed_(list_image(gpu, std::uint64_t{columns} * height_)),
+      listed_(list_image(gpu, mask.extent().width * height_)),
       words_(storage(gpu, std::size_t{words_of_row_} * height_)),
       first_of_row_(storage(gpu, height_)),
       nearest_(maker.nearest.get()),
       set_(making_set(gpu)) {
     shared::TexelListHeader header{};
     header.groups_z = 1;
-    header.width = columns;
+    header.width = mask.extent().width;
     header.height = height_;
-    header.log2_rows = static_cast<std::uint32_t>(std::countr_zero(listed_.extent().height));
-    header.image_width = listed_.extent().width;
     upload(gpu, header_, std::as_bytes(std::span(&header, 1)));
     set_.set_buffer(0, header_);
     set_.set_storage_image(1, listed_.view());
@@ -109,10 +100,6 @@ void TexelList::record(VkCommandBuffer commands, const Maker& maker) const {
 
 void TexelList::dispatch(VkCommandBuffer commands) const {
     vkCmdDispatchIndirect(commands, header_.get(), offsetof(shared::TexelListHeader, groups_x));
-}
-
-void TexelList::draw(VkCommandBuffer commands) const {
-    vkCmdDraw(commands, 6, 1, 0, 0);
 }
 
 }  // namespace parafovea

@@ -1,6 +1,5 @@
-// The needed texels in the first columns (or all) of a reduced buffer, listed on the device, so that what shades
-// them takes one after another: where needed texels are strewn among others, devices that shade in blocks would
-// waste most of a block.
+// The needed texels of a reduced buffer, listed on the device, so that compute shaders take one after
+// another.
 #pragma once
 
 #include <cstdint>
@@ -28,21 +27,16 @@ class TexelList {
         OwnedSampler nearest;
     };
 
-    // Of the leftmost columns of a mask: a depth image that is above 0 where a texel is needed.
-    TexelList(Gpu& gpu, const Maker& maker, const GpuImage& mask, std::uint32_t columns);
+    // Of a mask: a depth image that is above 0 where a texel is needed.
+    TexelList(Gpu& gpu, const Maker& maker, const GpuImage& mask);
 
     void bind_to(DescriptorSet& reading) const;
 
-    // Outside rendering, with the mask in kUseSampled: makes the list. Then all shaders may read it, and the
-    // draws and dispatches below may be recorded.
+    // Outside rendering, with the mask in kUseSampled: makes the list. Then compute shaders may read it.
     void record(VkCommandBuffer commands, const Maker& maker) const;
 
     // Runs a compute shader in groups of kTexelsPerGroup, whose pipeline and sets are bound, over the list.
     void dispatch(VkCommandBuffer commands) const;
-
-    // Runs fragments over the list: draws texel_list.vert, inside rendering over extent() without targets.
-    VkExtent2D extent() const { return listed_.extent(); }
-    void draw(VkCommandBuffer commands) const;
 
   private:
     std::uint32_t height_, words_of_row_;

@@ -1,4 +1,5 @@
-// Pass I for the columns that are finer than pixels: each texel takes the light of the pixel that it lies in.
+// Pass I for the columns that are finer than pixels: each texel takes the light of the pixel that it lies in, which
+// pass_1_pixels.frag found.
 #version 460
 #define METHOD_SET 0
 #include "sampled_position.glsl"
@@ -7,6 +8,4 @@ layout(set = 0, binding = 1) uniform sampler2D pixels;
 
 layout(location = 0) out vec4 color;
 
-void main() {
-    color = texelFetch(pixels, ivec2(floor(sampled_position(gl_FragCoord.xy)) - fine_corner(map)), 0);
-}
+void main() { color = texelFetch(pixels, ivec2(floor(sampled_position(gl_FragCoord.xy)) - map.fine_corner), 0); }

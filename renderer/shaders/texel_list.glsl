@@ -1,5 +1,4 @@
-// The needed texels in the first columns (or all) of a reduced buffer, as a list. Define LIST_SET, and WRITE_LIST if it
-// is being made.
+// The needed texels of a reduced buffer, as a list. Define LIST_SET, and WRITE_LIST if it is being made.
 #ifndef TEXEL_LIST_GLSL
 #define TEXEL_LIST_GLSL
 
@@ -23,7 +22,7 @@ layout(set = LIST_SET, binding = 1) uniform usampler2D listed;
 #endif
 
 // Where in the list's image the entry of a texel stands: column | row << 16.
-ivec2 entry_at(uint index) { return ivec2(index >> list.log2_rows, index & ((1u << list.log2_rows) - 1u)); }
+ivec2 entry_at(uint index) { return ivec2(index % kListWidth, index / kListWidth); }
 
 #ifndef WRITE_LIST
 ivec2 listed_texel(uint index) {

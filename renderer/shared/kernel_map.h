@@ -43,7 +43,13 @@ struct KernelMap {
     float mar_slope;       // k of kKernelLinearMar, 1 / pixel
     float mar_start;       // and r0, pixels
     uint doublings;        // kKernelPower: alpha = 2^doublings, or kAnyAlpha
-    float fine_px;         // see fine_corner(); whole; 0: every texel is shaded
+    // Where the texels of the first columns are finer than pixels, each has the light of the pixel that it
+    // lies in: so many columns, and the square of 2 fine_px + 1 pixels around the gaze's own that they lie
+    // in.
+    float fine_columns;
+    vec2 fine_corner;  // the square's, on the screen; whole
+    float fine_px;     // whole
+    float pad_0;
 };
 
 // x^alpha and x^(1 / alpha): products and roots alone where that is enough.
@@ -149,13 +155,6 @@ SHARED_FUNCTION vec2 sample_spacing(KernelMap map, vec2 position) {
     return vec2(radial_spacing(map, position.x, radius), radius * (2.0f * kMapPi) / map.buffer_size.y);
 }
 
-// Where a scene's light is the same all over a pixel and the texels of the first columns are finer than
-// pixels, these take the light of the pixel that they lie in, instead of being shaded: of a square of 2
-// fine_px + 1 pixels around the gaze's own, of which this is the corner.
-SHARED_FUNCTION vec2 fine_corner(KernelMap map) {
-    return vec2(floor(map.gaze.x) - map.fine_px, floor(map.gaze.y) - map.fine_px);
-}
-
 SHARED_END
 
 #ifdef __cplusplus
@@ -164,7 +163,8 @@ static_assert(offsetof(parafovea::shared::KernelMap, gaze) == 16);
 static_assert(offsetof(parafovea::shared::KernelMap, kernel) == 32);
 static_assert(offsetof(parafovea::shared::KernelMap, beta_low) == 48);
 static_assert(offsetof(parafovea::shared::KernelMap, mar_slope) == 80);
-static_assert(sizeof(parafovea::shared::KernelMap) == 96);
+static_assert(offsetof(parafovea::shared::KernelMap, fine_corner) == 96);
+static_assert(sizeof(parafovea::shared::KernelMap) == 112);
 #endif
 
 #endif

@@ -11,7 +11,7 @@ struct DevicePoint {
 };
 
 // The bytes of a shared::KernelMap.
-using MapBytes = std::span<const std::byte, 96>;
+using MapBytes = std::span<const std::byte, 112>;
 
 // renderer/shared/kernel_map.h, unchanged, on that device.
 DevicePoint worst_buffer_from_screen(MapBytes map, DevicePoint position);
