@@ -92,10 +92,12 @@ VkPhysicalDeviceProperties properties_of(VkPhysicalDevice device) {
 }
 
 // Software devices take working memory for each frame and free it at its end: a heap that gave it back to the
-// system would be filled with fresh pages every time (10 MB a frame of a million triangles).
+// system would be filled with fresh pages every time (6000 of them, 15 ms, for a million triangles). The
+// second line keeps the heaps of threads, 64 MiB each.
 void keep_freed_memory() {
 #ifdef __GLIBC__
     mallopt(M_TRIM_THRESHOLD, 256 << 20);
+    mallopt(M_TOP_PAD, 64 << 20);
 #endif
 }
 

@@ -3,29 +3,36 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "renderer/methods/foveation_method.h"
 #include "renderer/methods/sample_counter.h"
+#include "renderer/shared/bridge.h"
 
 namespace parafovea {
 
-// `layout` of all of these: set 0 the source's, set 1 with the kernel map block at binding 0, which says how
-// large the disc is; push constants are a Jitter.
+struct GazeDisc {
+    shared::vec2 centre;  // in the image that is drawn, pixels from its top left corner
+    float radius_px = 0;
+    VkRect2D within;  // the part of the image where it may be drawn
+};
 
-// Draws pixels of the disc with a fragment shader.
-GraphicsPipelineDescription gaze_disc(std::span<const std::uint32_t> fragment, VkPipelineLayout layout,
-                                      VkFormat format, std::vector<ShaderConstant> constants);
+// Rectangles that do not overlap and hold every pixel whose centre is in the disc, and few others. Triangles
+// around the centre would shade the blocks of pixels along their sides several times on software devices.
+std::vector<VkRect2D> rectangles_over(const GazeDisc& disc);
 
-// Inside rendering; counts the pixels with a query that was reset.
-void draw_gaze_disc(const MethodFrame& frame, VkPipeline pipeline, VkPipelineLayout layout,
-                    VkDescriptorSet map_set, const SampleCounter& counter, std::uint32_t query);
+// Inside rendering: draws the disc with a pipeline that covers the image with one triangle (fullscreen.vert),
+// and counts the pixels with a query that was reset. `layout`: set 0 the source's, set 1 the method's; push
+// constants are a Jitter.
+void draw_gaze_disc(const MethodFrame& frame, const GazeDisc& disc, VkPipeline pipeline,
+                    VkPipelineLayout layout, VkDescriptorSet method_set, const SampleCounter& counter,
+                    std::uint32_t query);
 
-// The native inset, see shaders/inset.frag.
+// The native inset, see shaders/inset.frag; set 1 of the layout has the kernel map block at binding 0.
 OwnedPipeline make_inset_pipeline(Gpu& gpu, const ShadingSource& source, VkPipelineLayout layout,
                                   VkFormat target_format, std::vector<ShaderConstant> constants);
-void record_native_inset(const MethodFrame& frame, VkPipeline pipeline, VkPipelineLayout layout,
-                         VkDescriptorSet map_set, const SampleCounter& counter, std::uint32_t query);
+void record_native_inset(const MethodFrame& frame, shared::vec2 gaze, float radius_px, VkPipeline pipeline,
+                         VkPipelineLayout layout, VkDescriptorSet map_set, const SampleCounter& counter,
+                         std::uint32_t query);
 
 }  // namespace parafovea

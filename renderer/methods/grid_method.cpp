@@ -175,8 +175,8 @@ void GridMethod::record(const MethodFrame& frame) {
 
     if (t.plan.grid.inset_px > 0) {
         frame.timer->start(frame.commands, "pass_1");
-        record_native_inset(frame, now_->inset.get(), inset_layout_.get(), t.sets.inset.get(), t.counts,
-                            kInsetQuery);
+        record_native_inset(frame, t.plan.grid.gaze, t.plan.grid.inset_px, now_->inset.get(),
+                            inset_layout_.get(), t.sets.inset.get(), t.counts, kInsetQuery);
         frame.timer->stop(frame.commands);
     }
     t.fresh = false;

@@ -162,9 +162,8 @@ KfrMethod::Pipelines KfrMethod::make_pipelines() const {
         made.shading = make_graphics_pipeline(gpu_, shading);
     }
     if (setting_.culling && KfrTargets::takes_light_of_pixels(source_.thing, setting_)) {
-        made.pixels =
-            make_graphics_pipeline(gpu_, gaze_disc(kPixelShading.of(source_.thing), layouts_.shading.get(),
-                                                   formats_.reduced, shading.constants));
+        made.pixels = make_fullscreen_pipeline(gpu_, kPixelShading.of(source_.thing), layouts_.shading.get(),
+                                               {formats_.reduced}, shading.constants);
         made.fine = make_fullscreen_pipeline(gpu_, shader_code::pass_1_fine, layouts_.resample.get(),
                                              {formats_.reduced}, map_constants);
     }
@@ -225,8 +224,8 @@ void KfrMethod::record(const MethodFrame& frame) {
     }
     if (setting_.inset > 0) {
         frame.timer->start(frame.commands, "pass_1");
-        record_native_inset(frame, now_->inset.get(), layouts_.shading.get(), t.map_set.get(), t.counts,
-                            kDiscQuery);
+        record_native_inset(frame, t.block.gaze, t.block.inset_px, now_->inset.get(), layouts_.shading.get(),
+                            t.map_set.get(), t.counts, kDiscQuery);
         frame.timer->stop(frame.commands);
     }
     t.fresh = false;
@@ -300,13 +299,8 @@ void KfrMethod::record_fine_columns(const MethodFrame& frame) {
     image_barrier(commands, t.fine_pixels, kUseNone, kUseColorTarget);
     begin_rendering(commands, t.fine_pixels.extent(),
                     {ColorTarget{.view = t.fine_pixels.view(), .discard = true}});
-    // The screen, placed so that the square's corner is the image's.
-    const shared::vec2 corner = t.block.fine_corner, screen = t.block.screen_size;
-    const VkViewport viewport{-corner.x, -corner.y, screen.x, screen.y, 0, 1};
-    vkCmdSetViewport(commands, 0, 1, &viewport);
-    const VkRect2D on_screen = t.fine_square_on_screen();
-    vkCmdSetScissor(commands, 0, 1, &on_screen);
-    draw_gaze_disc(frame, now_->pixels.get(), layouts_.shading.get(), t.map_set.get(), t.counts, kDiscQuery);
+    draw_gaze_disc(frame, t.fine_disc(), now_->pixels.get(), layouts_.shading.get(), t.map_set.get(),
+                   t.counts, kDiscQuery);
     vkCmdEndRendering(commands);
     image_barrier(commands, t.fine_pixels, kUseColorTarget, kUseSampled);
 

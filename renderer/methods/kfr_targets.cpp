@@ -133,14 +133,18 @@ void KfrTargets::set_fine_columns() {
     block.fine_corner = {std::floor(block.gaze.x) - block.fine_px, std::floor(block.gaze.y) - block.fine_px};
 }
 
-VkRect2D KfrTargets::fine_square_on_screen() const {
+GazeDisc KfrTargets::fine_disc() const {
     const shared::vec2 corner = block.fine_corner;
-    const float last_side = 2 * block.fine_px + 1;
     const float left = std::max(-corner.x, 0.0f), top = std::max(-corner.y, 0.0f);
-    const float right = std::min(block.screen_size.x - corner.x, last_side);
-    const float bottom = std::min(block.screen_size.y - corner.y, last_side);
-    return {{static_cast<std::int32_t>(left), static_cast<std::int32_t>(top)},
-            {static_cast<std::uint32_t>(right - left), static_cast<std::uint32_t>(bottom - top)}};
+    const float square = 2 * block.fine_px + 1;
+    const float right = std::min(block.screen_size.x - corner.x, square);
+    const float bottom = std::min(block.screen_size.y - corner.y, square);
+    return {.centre = {block.gaze.x - corner.x, block.gaze.y - corner.y},
+            // The middle of a pixel is up to 0.71 from what lies in it, and the screen's edge moves samples
+            // by as much.
+            .radius_px = block.fine_px + 0.5f,
+            .within = {{static_cast<std::int32_t>(left), static_cast<std::int32_t>(top)},
+                       {static_cast<std::uint32_t>(right - left), static_cast<std::uint32_t>(bottom - top)}}};
 }
 
 KfrLayouts::KfrLayouts(Gpu& gpu, VkDescriptorSetLayout shading_layout)

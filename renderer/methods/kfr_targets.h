@@ -6,6 +6,7 @@
 
 #include "renderer/kernel_setting.h"
 #include "renderer/methods/foveation_method.h"
+#include "renderer/methods/gaze_disc.h"
 #include "renderer/methods/sample_counter.h"
 #include "renderer/methods/texel_list.h"
 
@@ -80,7 +81,7 @@ class KfrTargets {
     std::uint32_t culled_columns() const {
         return setting.culling ? static_cast<std::uint32_t>(block.fine_columns) : 0;
     }
-    VkRect2D fine_square_on_screen() const;  // of fine_pixels, the part that lies on the screen
+    GazeDisc fine_disc() const;  // what is drawn of fine_pixels
 
   private:
     void set_fine_columns();
