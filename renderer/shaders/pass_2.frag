@@ -11,7 +11,8 @@ layout(location = 0) out vec4 color;
 
 #ifdef EXACT_BILINEAR
 
-vec4 read(vec2 position) {
+vec4 read(vec2 share) {
+    vec2 position = share * map.buffer_size - jitter;
     ivec2 size = textureSize(reduced, 0);
     vec2 corner = floor(position - 0.5);
     vec2 weight = position - 0.5 - corner;
@@ -28,8 +29,8 @@ vec4 read(vec2 position) {
 
 #else
 
-vec4 read(vec2 position) { return textureLod(reduced, position / map.buffer_size, 0.0); }
+vec4 read(vec2 share) { return textureLod(reduced, share - jitter / map.buffer_size, 0.0); }
 
 #endif
 
-void main() { color = vec4(read(buffer_from_screen(map, gl_FragCoord.xy) - jitter).rgb, 1.0); }
+void main() { color = vec4(read(share_from_screen(map, gl_FragCoord.xy)).rgb, 1.0); }

@@ -17,14 +17,9 @@ SHARED_FUNCTION float natural_log(float x) {
     int exponent = (bits - 0x3f3504f3) >> 23;  // x = m 2^exponent with m from sqrt(1/2) to sqrt(2)
     float t = float_of(bits - (exponent << 23)) - 1.0f;
     // ln(1 + t) = t - t^2 / 2 + t^3 p(t); p fitted to 7e-9.
-    float p = 0.0867657885f;
-    p = p * t - 0.1437558830f;
-    p = p * t + 0.1497458369f;
-    p = p * t - 0.1656478643f;
-    p = p * t + 0.1995530576f;
-    p = p * t - 0.2500169277f;
-    p = p * t + 0.3333415091f;
     float s = t * t;
+    float p = (0.0867657885f * s + (-0.1437558830f * t + 0.1497458369f)) * (s * s) +
+              ((-0.1656478643f * t + 0.1995530576f) * s + (-0.2500169277f * t + 0.3333415091f));
     float e = float(exponent);
     // ln 2 in two parts, the first of few digits, so that its multiples are exact (Cody and Waite 1980).
     return ((p * t * s - 0.5f * s + e * -2.12194440e-4f) + t) + e * 0.693359375f;
@@ -59,14 +54,9 @@ SHARED_FUNCTION float root_of(float x) {
 // arctan(x) for x in [0, 1], to 2e-8 (Abramowitz and Stegun 1964, 4.4.49).
 SHARED_FUNCTION float arctan_unit(float x) {
     float s = x * x;
-    float p = 0.0028662257f;
-    p = p * s - 0.0161657367f;
-    p = p * s + 0.0429096138f;
-    p = p * s - 0.0752896400f;
-    p = p * s + 0.1065626393f;
-    p = p * s - 0.1420889944f;
-    p = p * s + 0.1999355085f;
-    p = p * s - 0.3333314528f;
+    float s2 = s * s;
+    float p = ((0.0028662257f * s - 0.0161657367f) * s2 + (0.0429096138f * s - 0.0752896400f)) * (s2 * s2) +
+              ((0.1065626393f * s - 0.1420889944f) * s2 + (0.1999355085f * s - 0.3333314528f));
     return x + x * s * p;
 }
 

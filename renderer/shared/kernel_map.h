@@ -104,9 +104,9 @@ SHARED_FUNCTION float inverse_kernel(KernelMap map, float y) {
     return natural_log(1.0f + y * 1.71828182845905f);
 }
 
-// Screen position to buffer position (Algorithm 1). r < 1 counts as r = 1. u in [0, w] on screen, v in [0,
-// h).
-SHARED_FUNCTION vec2 buffer_from_screen(KernelMap map, vec2 position) {
+// Screen position to buffer position, as shares of the buffer's width and height (Algorithm 1). r < 1 counts as
+// r = 1. u in [0, 1] on screen, v in [0, 1).
+SHARED_FUNCTION vec2 share_from_screen(KernelMap map, vec2 position) {
     float x = position.x - map.gaze.x;
     float y = position.y - map.gaze.y;
     float squared = max(x * x + y * y, 1.0f);
@@ -118,7 +118,13 @@ SHARED_FUNCTION vec2 buffer_from_screen(KernelMap map, vec2 position) {
         float radial = min(0.5f * natural_log(squared) / map.log_max_radius, 1.0f);
         u = map.as_printed == 0u ? kernel(map, radial) : inverse_kernel(map, radial);
     }
-    return vec2(u * map.buffer_size.x, turns_of(x, y) * map.buffer_size.y);
+    return vec2(u, turns_of(x, y));
+}
+
+// The same in texels.
+SHARED_FUNCTION vec2 buffer_from_screen(KernelMap map, vec2 position) {
+    vec2 share = share_from_screen(map, position);
+    return vec2(share.x * map.buffer_size.x, share.y * map.buffer_size.y);
 }
 
 // Distance from the gaze, in pixels, of buffer column position u (Algorithm 2).
