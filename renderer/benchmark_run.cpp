@@ -28,6 +28,7 @@ constexpr double kMostInOneTurn = 4;
 
 struct Measured {
     std::vector<double> frame_ms;
+    std::vector<double> round_ms;  // mean of the frames of each round
     std::vector<FrameStatistics> frames;
     int drawn = 0;
     int in_one_turn = 1;
@@ -53,8 +54,12 @@ TimedFrame timed_frame(FrameRenderer& renderer, SizePx size, const CameraView& v
     return {std::chrono::duration<double, std::milli>(Clock::now() - start).count(), std::move(statistics)};
 }
 
-BenchmarkRow row_of(const Measured& measured) {
+BenchmarkRow row_of(const Measured& measured, const Measured& full) {
     BenchmarkRow row;
+    std::vector<double> speedups;
+    for (std::size_t round = 0; round < measured.round_ms.size(); ++round)
+        speedups.push_back(full.round_ms[round] / measured.round_ms[round]);
+    row.speedup = quantile(std::move(speedups), 0.5);
     row.frame_ms = quantile(measured.frame_ms, 0.5);
     row.frame_ms_low = quantile(measured.frame_ms, 0.25);
     row.frame_ms_high = quantile(measured.frame_ms, 0.75);
@@ -138,29 +143,30 @@ std::vector<BenchmarkRow> run_benchmark(Gpu& gpu, const BenchmarkPlan& plan,
                         progress(taken / turns, scene_name + " " + std::to_string(size.width) + "x" +
                                                     std::to_string(size.height) + " " + methods[m].label);
                     }
-                    double ms = 0;
-                    for (int i = 0; i < measured[m].in_one_turn; ++i) {
-                        const PointPx gaze = gaze_of_frame(size, measured[m].drawn++, plan.moving_gaze);
+                    Measured& method = measured[m];
+                    double ms = 0, turn_ms = 0;
+                    for (int i = 0; i < method.in_one_turn; ++i) {
+                        const PointPx gaze = gaze_of_frame(size, method.drawn++, plan.moving_gaze);
                         TimedFrame frame = timed_frame(renderer, size, view, methods[m].method, gaze);
                         ms = frame.ms;
+                        turn_ms += ms;
                         if (round < plan.warm_up_rounds) continue;
-                        measured[m].frame_ms.push_back(ms);
-                        measured[m].frames.push_back(std::move(frame.statistics));
+                        method.frame_ms.push_back(ms);
+                        method.frames.push_back(std::move(frame.statistics));
                     }
+                    if (round >= plan.warm_up_rounds) method.round_ms.push_back(turn_ms / method.in_one_turn);
                     if (m == 0) full_ms = ms;
-                    measured[m].in_one_turn =
+                    method.in_one_turn =
                         static_cast<int>(std::clamp(std::round(full_ms / ms), 1.0, kMostInOneTurn));
                     taken += 1;
                 }
             }
-            const std::size_t first = rows.size();
             for (std::size_t m = 0; m < methods.size(); ++m) {
-                BenchmarkRow row = row_of(measured[m]);
+                BenchmarkRow row = row_of(measured[m], measured.front());
                 row.scene = scene_name;
                 row.size = size;
                 row.method = methods[m];
-                rows.push_back(row);
-                rows.back().speedup = rows[first].frame_ms / row.frame_ms;
+                rows.push_back(std::move(row));
             }
         }
     }

@@ -41,7 +41,9 @@ struct BenchmarkRow {
     double frame_ms_low = 0;  // its quartiles
     double frame_ms_high = 0;
     double shading_ms = 0;  // median of pass_1
-    double speedup = 1;     // full resolution's median frame time over this one's
+    // Full resolution's frame time over this one's: the median of the rounds, in each of which both met the
+    // same machine.
+    double speedup = 1;
     std::uint64_t shaded_samples = 0;
     std::vector<PassTimer::Pass> passes;    // medians of device time
     std::uint64_t device_memory_bytes = 0;  // allocated with every method of this size resident
