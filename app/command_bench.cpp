@@ -103,8 +103,9 @@ void write_table_3(const std::filesystem::path& out, const std::vector<Benchmark
     std::string markdown =
         "# Table 3. Frame time and speed-up\n\n" + device + ". " + conditions +
         " Medians over rounds in which all methods took turns, with quartiles; the speed-up is the median of "
-        "the rounds' own. A turn's first frame does not count; frames are not read back. Memory is the "
-        "device's with all methods of a size resident.\n\n"
+        "the "
+        "rounds' own. Frames are not read back. Memory is the device's with all methods of a size "
+        "resident.\n\n"
         "| scene | size | method | frame, ms | shading, ms | samples / pixels | memory, MiB | speed-up "
         "|\n|---|---|---|---|---|---|---|---|\n";
     for (const BenchmarkRow& row : rows) {

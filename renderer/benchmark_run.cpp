@@ -145,12 +145,10 @@ std::vector<BenchmarkRow> run_benchmark(Gpu& gpu, const BenchmarkPlan& plan,
                     }
                     Measured& method = measured[m];
                     double ms = 0, turn_ms = 0;
-                    for (int i = 0; i <= method.in_one_turn; ++i) {
+                    for (int i = 0; i < method.in_one_turn; ++i) {
                         const PointPx gaze = gaze_of_frame(size, method.drawn++, plan.moving_gaze);
                         TimedFrame frame = timed_frame(renderer, size, view, methods[m].method, gaze);
                         ms = frame.ms;
-                        // The first of a turn finds caches as another method left them.
-                        if (i == 0) continue;
                         turn_ms += ms;
                         if (round < plan.warm_up_rounds) continue;
                         method.frame_ms.push_back(ms);

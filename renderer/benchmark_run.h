@@ -1,6 +1,6 @@
 // Measures methods against full resolution: every method of a scene and size takes its turn in every round of
 // one run, and faster ones draw several frames in theirs, so that a machine whose speed drifts is fair to
-// all. As in use, every frame that counts follows one of the same method. Meng et al. 2018, Tables 2 and 3.
+// all. Meng et al. 2018, Tables 2 and 3.
 #pragma once
 
 #include <cstdint>
