@@ -138,6 +138,9 @@ inline constexpr ResourceUse kUseDepthTest{
 inline constexpr ResourceUse kUseSampled{
     VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT | VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
     VK_ACCESS_2_SHADER_SAMPLED_READ_BIT, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
+// Sampled, if ever used; what it held is of no interest.
+inline constexpr ResourceUse kUseSampledBefore{kUseSampled.stages, kUseSampled.accesses,
+                                               VK_IMAGE_LAYOUT_UNDEFINED};
 // A storage image or buffer in compute shaders.
 inline constexpr ResourceUse kUseComputeStorage{
     VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,

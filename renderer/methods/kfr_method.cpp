@@ -296,7 +296,7 @@ void KfrMethod::record_fine_columns(const MethodFrame& frame) {
     KfrTargets& t = targets_.front();
     const VkCommandBuffer commands = frame.commands;
     t.counts.reset(commands, kDiscQuery);
-    image_barrier(commands, t.fine_pixels, kUseNone, kUseColorTarget);
+    image_barrier(commands, t.fine_pixels, kUseSampledBefore, kUseColorTarget);
     begin_rendering(commands, t.fine_pixels.extent(),
                     {ColorTarget{.view = t.fine_pixels.view(), .discard = true}});
     draw_gaze_disc(frame, t.fine_disc(), now_->pixels.get(), layouts_.shading.get(), t.map_set.get(),

@@ -17,8 +17,6 @@ constexpr std::uint32_t kRowsOfGroup = 64;  // see texel_list.comp
 constexpr ResourceUse kUseHeader{
     VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT | VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
     VK_ACCESS_2_UNIFORM_READ_BIT | VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT, VK_IMAGE_LAYOUT_UNDEFINED};
-// Whatever it held is of no interest.
-constexpr ResourceUse kUseOldList{kUseSampled.stages, kUseSampled.accesses, VK_IMAGE_LAYOUT_UNDEFINED};
 
 GpuImage list_image(Gpu& gpu, std::uint32_t texels) {
     return GpuImage(gpu, {.format = VK_FORMAT_R32_UINT,
@@ -91,7 +89,7 @@ void TexelList::record(VkCommandBuffer commands, const Maker& maker) const {
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, maker.rows.get());
     vkCmdDispatch(commands, 1, 1, 1);
     memory_barrier(commands, kUseComputeStorage, kUseComputeStorage);
-    image_barrier(commands, listed_, kUseOldList, kUseComputeStorage);
+    image_barrier(commands, listed_, kUseSampledBefore, kUseComputeStorage);
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, maker.list.get());
     vkCmdDispatch(commands, groups, words_of_row_, 1);
     memory_barrier(commands, kUseComputeStorage, kUseHeader);
