@@ -46,10 +46,9 @@ std::uint32_t side(int pixels) {
     return static_cast<std::uint32_t>(pixels);
 }
 
-// Of a buffer that is being drawn, draws only the columns from `first` on.
-void keep_to_columns(VkCommandBuffer commands, SizePx buffer, std::uint32_t first) {
-    const VkRect2D columns{{static_cast<std::int32_t>(first), 0},
-                           {side(buffer.width) - first, side(buffer.height)}};
+// Of a buffer that is being drawn, draws only the columns in [first, end).
+void keep_to_columns(VkCommandBuffer commands, SizePx buffer, std::uint32_t first, std::uint32_t end) {
+    const VkRect2D columns{{static_cast<std::int32_t>(first), 0}, {end - first, side(buffer.height)}};
     vkCmdSetScissor(commands, 0, 1, &columns);
 }
 
@@ -243,7 +242,7 @@ void KfrMethod::record_mask(const MethodFrame& frame) {
     begin_rendering(commands, t.mask.extent(), {}, &depth);
     if (setting_.culling) {
         t.counts.begin(commands, kTexelQuery);
-        keep_to_columns(commands, t.buffer, t.culled_columns());
+        keep_to_columns(commands, t.buffer, t.culled_columns(), side(t.buffer.width));
         push_jitter(commands, layouts_.mask.get(), frame.jitter);
         draw_fullscreen(commands, now_->mask.get(), layouts_.mask.get(), std::array{t.map_set.get()});
         t.counts.end(commands, kTexelQuery);
@@ -264,7 +263,7 @@ void KfrMethod::record_shading(const MethodFrame& frame) {
     begin_rendering(frame.commands, t.reduced.extent(),
                     {ColorTarget{.view = t.reduced.view(), .clear = t.fresh}},
                     setting_.culling ? &depth : nullptr);
-    keep_to_columns(frame.commands, t.buffer, t.culled_columns());
+    keep_to_columns(frame.commands, t.buffer, t.culled_columns(), side(t.buffer.width));
     push_jitter(frame.commands, layouts_.shading.get(), frame.jitter);
     draw_fullscreen(frame.commands, now_->shading.get(), layouts_.shading.get(),
                     std::array{frame.shading_set, t.map_set.get()});
@@ -306,8 +305,7 @@ void KfrMethod::record_fine_columns(const MethodFrame& frame) {
 
     image_barrier(commands, t.reduced, kUseSampled, kUseColorTarget);
     begin_rendering(commands, t.reduced.extent(), {ColorTarget{.view = t.reduced.view()}});
-    const VkRect2D columns{{0, 0}, {t.culled_columns(), side(t.buffer.height)}};
-    vkCmdSetScissor(commands, 0, 1, &columns);
+    keep_to_columns(commands, t.buffer, 0, t.culled_columns());
     push_jitter(commands, layouts_.resample.get(), frame.jitter);
     draw_fullscreen(commands, now_->fine.get(), layouts_.resample.get(), std::array{t.fine_set.get()});
     vkCmdEndRendering(commands);
@@ -319,7 +317,7 @@ void KfrMethod::record_internal_filter(VkCommandBuffer commands) {
     const DepthTarget depth{.view = t.mask.view(), .read_only = true};
     const auto filter = [&](VkPipeline pipeline, const DescriptorSet& from, const ColorTarget& to) {
         begin_rendering(commands, t.reduced.extent(), {to}, setting_.culling ? &depth : nullptr);
-        keep_to_columns(commands, t.buffer, side(t.buffer.width / 2));
+        keep_to_columns(commands, t.buffer, side(t.buffer.width / 2), side(t.buffer.width));
         draw_fullscreen(commands, pipeline, layouts_.filter.get(), std::array{from.get()});
         vkCmdEndRendering(commands);
     };

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace parafovea {
 namespace {
@@ -27,9 +26,10 @@ std::uint32_t columns_finer_than(const shared::KernelMap& map, float most_area) 
     };
     const auto most = static_cast<std::uint32_t>(map.buffer_size.x) / 2;
     std::uint32_t columns = 0;
+    if (!is_fine(0)) return columns;
     for (; columns < most; ++columns) {
         const auto u = static_cast<float>(columns);
-        if (!is_fine(u) || !is_fine(u + 0.5f) || !is_fine(u + 1)) break;
+        if (!is_fine(u + 0.5f) || !is_fine(u + 1)) break;
     }
     return columns;
 }
@@ -129,20 +129,20 @@ void KfrTargets::set_fine_columns() {
     std::uint32_t columns = on_screen ? columns_finer_than(block, most_fine_area_) : 0;
     while (reach_of_columns(block, columns) > most_fine_px_) --columns;
     block.fine_columns = static_cast<float>(columns);
-    block.fine_px = reach_of_columns(block, columns);
-    block.fine_corner = {std::floor(block.gaze.x) - block.fine_px, std::floor(block.gaze.y) - block.fine_px};
+    fine_px_ = reach_of_columns(block, columns);
+    block.fine_corner = {std::floor(block.gaze.x) - fine_px_, std::floor(block.gaze.y) - fine_px_};
 }
 
 GazeDisc KfrTargets::fine_disc() const {
     const shared::vec2 corner = block.fine_corner;
     const float left = std::max(-corner.x, 0.0f), top = std::max(-corner.y, 0.0f);
-    const float square = 2 * block.fine_px + 1;
+    const float square = 2 * fine_px_ + 1;
     const float right = std::min(block.screen_size.x - corner.x, square);
     const float bottom = std::min(block.screen_size.y - corner.y, square);
     return {.centre = {block.gaze.x - corner.x, block.gaze.y - corner.y},
             // The middle of a pixel is up to 0.71 from what lies in it, and the screen's edge moves samples
             // by as much.
-            .radius_px = block.fine_px + 0.5f,
+            .radius_px = fine_px_ + 0.5f,
             .within = {{static_cast<std::int32_t>(left), static_cast<std::int32_t>(top)},
                        {static_cast<std::uint32_t>(right - left), static_cast<std::uint32_t>(bottom - top)}}};
 }

@@ -87,6 +87,7 @@ class KfrTargets {
     void set_fine_columns();
 
     float most_fine_area_ = 0;
+    float fine_px_ = 0;       // the square around the gaze's own pixel has 2 fine_px_ + 1 on a side
     float most_fine_px_ = 0;  // of all gazes
     bool has_gaze_ = false;
 };

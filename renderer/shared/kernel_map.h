@@ -44,12 +44,12 @@ struct KernelMap {
     float mar_start;       // and r0, pixels
     uint doublings;        // kKernelPower: alpha = 2^doublings, or kAnyAlpha
     // Where the texels of the first columns are finer than pixels, each has the light of the pixel that it
-    // lies in: so many columns, and the square of 2 fine_px + 1 pixels around the gaze's own that they lie
-    // in.
+    // lies in: so many columns, and the corner, on the screen, of the square of pixels around the gaze that
+    // they lie in. Whole.
     float fine_columns;
-    vec2 fine_corner;  // the square's, on the screen; whole
-    float fine_px;     // whole
+    vec2 fine_corner;
     float pad_0;
+    float pad_1;
 };
 
 // x^alpha and x^(1 / alpha): products and roots alone where that is enough.
