@@ -13,6 +13,8 @@
 #include "renderer/methods/method_parameters.h"
 #include "shader_code/fullscreen_vert.h"
 #include "shader_code/internal_filter.h"
+#include "shader_code/map_corners_shading_vert.h"
+#include "shader_code/map_corners_vert.h"
 #include "shader_code/pass_1_compute_meshes.h"
 #include "shader_code/pass_1_compute_picture.h"
 #include "shader_code/pass_1_compute_primitives.h"
@@ -52,20 +54,24 @@ void keep_to_columns(VkCommandBuffer commands, SizePx buffer, std::uint32_t firs
     vkCmdSetScissor(commands, 0, 1, &columns);
 }
 
-// A full-screen pass that runs only where the mask says that a texel is needed: its triangle has depth 0.
-GraphicsPipelineDescription masked_pass(std::span<const std::uint32_t> code, VkPipelineLayout layout,
-                                        VkFormat format, bool masked) {
+// A pass over a whole target.
+GraphicsPipelineDescription whole_pass(std::span<const std::uint32_t> vertex,
+                                       std::span<const std::uint32_t> fragment, VkPipelineLayout layout,
+                                       VkFormat format, std::vector<ShaderConstant> constants) {
     GraphicsPipelineDescription description;
-    description.vertex = shader_code::fullscreen_vert;
-    description.fragment = code;
+    description.vertex = vertex;
+    description.fragment = fragment;
     description.layout = layout;
     description.color_formats = {format};
-    if (masked) {
-        description.depth_format = kKfrMaskFormat;
-        description.depth_test = true;
-        description.depth_compare = VK_COMPARE_OP_LESS;
-    }
+    description.constants = std::move(constants);
     return description;
+}
+
+// Keeps a pass to where the mask says that a texel is needed: its triangle has depth 0.
+void keep_to_mask(GraphicsPipelineDescription& pass) {
+    pass.depth_format = kKfrMaskFormat;
+    pass.depth_test = true;
+    pass.depth_compare = VK_COMPARE_OP_LESS;
 }
 
 }  // namespace
@@ -150,35 +156,40 @@ KfrMethod::Pipelines KfrMethod::make_pipelines() const {
         mask.constants.push_back({2, setting_.internal_filter ? 1U : 0U});
         made.mask = make_graphics_pipeline(gpu_, mask);
     }
-    GraphicsPipelineDescription shading =
-        masked_pass(kShading.of(source_.thing), layouts_.shading.get(), formats_.reduced, setting_.culling);
-    shading.constants = source_.constants;
-    shading.constants.insert(shading.constants.end(), map_constants.begin(), map_constants.end());
+    std::vector<ShaderConstant> shading_constants = source_.constants;
+    shading_constants.insert(shading_constants.end(), map_constants.begin(), map_constants.end());
     if (formats_.in_compute) {
         made.shading = make_compute_pipeline(gpu_, kComputeShading.of(source_.thing),
-                                             layouts_.listed_shading.get(), shading.constants);
+                                             layouts_.listed_shading.get(), shading_constants);
     } else {
+        GraphicsPipelineDescription shading =
+            whole_pass(shader_code::map_corners_shading_vert, kShading.of(source_.thing),
+                       layouts_.shading.get(), formats_.reduced, shading_constants);
+        if (setting_.culling) keep_to_mask(shading);
         made.shading = make_graphics_pipeline(gpu_, shading);
     }
     if (setting_.culling && KfrTargets::takes_light_of_pixels(source_.thing, setting_)) {
         made.pixels = make_fullscreen_pipeline(gpu_, kPixelShading.of(source_.thing), layouts_.shading.get(),
-                                               {formats_.reduced}, shading.constants);
-        made.fine = make_fullscreen_pipeline(gpu_, shader_code::pass_1_fine, layouts_.resample.get(),
-                                             {formats_.reduced}, map_constants);
+                                               {formats_.reduced}, shading_constants);
+        made.fine = make_graphics_pipeline(
+            gpu_, whole_pass(shader_code::map_corners_vert, shader_code::pass_1_fine, layouts_.resample.get(),
+                             formats_.reduced, map_constants));
     }
     if (setting_.internal_filter) {
-        GraphicsPipelineDescription filter = masked_pass(shader_code::internal_filter, layouts_.filter.get(),
-                                                         formats_.reduced, setting_.culling);
-        made.filter_u = make_graphics_pipeline(gpu_, filter);
-        filter.constants = {{0, 1}};
-        made.filter_v = make_graphics_pipeline(gpu_, filter);
+        for (const std::uint32_t along_v : {0U, 1U}) {
+            GraphicsPipelineDescription filter =
+                whole_pass(shader_code::fullscreen_vert, shader_code::internal_filter, layouts_.filter.get(),
+                           formats_.reduced, {{0, along_v}});
+            if (setting_.culling) keep_to_mask(filter);
+            (along_v == 0 ? made.filter_u : made.filter_v) = make_graphics_pipeline(gpu_, filter);
+        }
     }
     const std::span<const std::uint32_t> resample =
         formats_.exact_bilinear ? std::span<const std::uint32_t>(shader_code::pass_2_exact)
                                 : shader_code::pass_2;
-    made.resample =
-        make_fullscreen_pipeline(gpu_, resample, layouts_.resample.get(),
-                                 {setting_.post_filter ? kKfrScreenFormat : formats_.target}, map_constants);
+    made.resample = make_graphics_pipeline(
+        gpu_, whole_pass(shader_code::map_corners_vert, resample, layouts_.resample.get(),
+                         setting_.post_filter ? kKfrScreenFormat : formats_.target, map_constants));
     if (setting_.post_filter) {
         made.post = make_fullscreen_pipeline(gpu_, shader_code::post_filter, layouts_.resample.get(),
                                              {formats_.target},
@@ -186,7 +197,7 @@ KfrMethod::Pipelines KfrMethod::make_pipelines() const {
     }
     if (setting_.inset > 0)
         made.inset =
-            make_inset_pipeline(gpu_, source_, layouts_.shading.get(), formats_.target, shading.constants);
+            make_inset_pipeline(gpu_, source_, layouts_.shading.get(), formats_.target, shading_constants);
     return made;
 }
 

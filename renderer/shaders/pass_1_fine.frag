@@ -1,7 +1,7 @@
 // Pass I for the columns that are finer than pixels: each texel takes the light of the pixel that it lies in, which
 // pass_1_pixels.frag found.
 #version 460
-#define METHOD_SET 0
+#define MAP_HANDED_ON
 #include "sampled_position.glsl"
 
 layout(set = 0, binding = 1) uniform sampler2D pixels;

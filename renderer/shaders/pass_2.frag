@@ -1,8 +1,7 @@
 // Pass II: every screen pixel reads the reduced buffer where the map puts it, bilinearly (Meng et al. 2018, Section
 // 3.2). The buffer goes round in v and ends in u. With EXACT_BILINEAR the weights are full floats.
 #version 460
-#define METHOD_SET 0
-#include "jitter.glsl"
+#define MAP_HANDED_ON
 #include "map_block.glsl"
 
 layout(set = 0, binding = 1) uniform sampler2D reduced;
@@ -12,7 +11,7 @@ layout(location = 0) out vec4 color;
 #ifdef EXACT_BILINEAR
 
 vec4 read(vec2 share) {
-    vec2 position = share * map.buffer_size - jitter;
+    vec2 position = share * map.buffer_size;
     ivec2 size = textureSize(reduced, 0);
     vec2 corner = floor(position - 0.5);
     vec2 weight = position - 0.5 - corner;
@@ -29,8 +28,8 @@ vec4 read(vec2 share) {
 
 #else
 
-vec4 read(vec2 share) { return textureLod(reduced, share - jitter / map.buffer_size, 0.0); }
+vec4 read(vec2 share) { return textureLod(reduced, share, 0.0); }
 
 #endif
 
-void main() { color = vec4(read(share_from_screen(map, gl_FragCoord.xy)).rgb, 1.0); }
+void main() { color = vec4(read(share_from_screen(map, gl_FragCoord.xy) - jitter_share).rgb, 1.0); }

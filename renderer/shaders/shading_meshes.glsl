@@ -239,10 +239,13 @@ vec3 shade_sample(vec2 position_px, vec2 spacing_px) {
     float glass_depth = 0.0;
     vec4 glass = vec4(0.0);
     ivec2 behind_at = at;
+    float behind_depth = depth_at(at);
     if (kBlend == 1u) {
         glass_depth = texelFetch(blended_depth, at, 0).r;
-        if (glass_depth > depth_at(at)) {
-            glass_words = texelFetch(blended, at, 0);
+        bool in_front = glass_depth > behind_depth;
+        uvec4 there = texelFetch(blended, in_front ? at : ivec2(0), 0);
+        if (in_front) {
+            glass_words = there;
             glass = bytes_of(glass_words.w);
             if (glass.z > 0.0) {
                 // A thin slab bends the eye's ray along its normal.
@@ -252,7 +255,11 @@ vec3 shade_sample(vec2 position_px, vec2 spacing_px) {
                 float bend = 2.0 * glass.w / (1.0 + 2.0 * glass.w);
                 float reach = 0.06 * bend * glass_depth / (camera.eye.w * length(camera.ray_per_px_x.xyz));
                 ivec2 bent = clamp(at - ivec2(aside * min(reach, 60.0)), ivec2(0), most);
-                if (depth_at(bent) < glass_depth) behind_at = bent;
+                float bent_depth = depth_at(bent);
+                if (bent_depth < glass_depth) {
+                    behind_at = bent;
+                    behind_depth = bent_depth;
+                }
             }
         } else {
             glass_depth = 0.0;
@@ -260,7 +267,6 @@ vec3 shade_sample(vec2 position_px, vec2 spacing_px) {
     }
 
     // Read the textures of what lies behind.
-    float behind_depth = depth_at(behind_at);
     uvec4 behind_words = gbuffer_words(behind_at, behind_depth);
     Sample behind;
     vec3 tilt = vec3(0.0, 0.0, 1.0);

@@ -27,7 +27,9 @@ const uint kKernelLinearMar = 4u;
 // KernelMap::doublings of an alpha that is not 1, 2, 4 or 8.
 const uint kAnyAlpha = 99u;
 
-// Uniform block; std140. Sizes in pixels or texels as floats.
+// Uniform block; std140; of so many vec4. Sizes in pixels or texels as floats.
+const uint kMapWords = 7u;
+
 struct KernelMap {
     vec2 screen_size;      // W, H
     vec2 buffer_size;      // w, h
@@ -170,7 +172,7 @@ static_assert(offsetof(parafovea::shared::KernelMap, kernel) == 32);
 static_assert(offsetof(parafovea::shared::KernelMap, beta_low) == 48);
 static_assert(offsetof(parafovea::shared::KernelMap, mar_slope) == 80);
 static_assert(offsetof(parafovea::shared::KernelMap, fine_corner) == 96);
-static_assert(sizeof(parafovea::shared::KernelMap) == 112);
+static_assert(sizeof(parafovea::shared::KernelMap) == 16 * parafovea::shared::kMapWords);
 #endif
 
 #endif

@@ -1,0 +1,16 @@
+// One triangle that covers the whole target and hands the map on to fragments (see map_block.glsl).
+#version 460
+#include "jitter.glsl"
+#include "shared/kernel_map.h"
+
+layout(set = METHOD_SET, binding = 0, std140) uniform KernelMapBlock { vec4 words[kMapWords]; };
+
+layout(location = 0) flat out vec4 handed_map[kMapWords];
+layout(location = kMapWords) flat out vec2 jitter_share;
+
+void main() {
+    vec2 corner = vec2((gl_VertexIndex << 1) & 2, gl_VertexIndex & 2);
+    gl_Position = vec4(corner * 2.0 - 1.0, 0.0, 1.0);
+    handed_map = words;
+    jitter_share = jitter / words[0].zw;
+}
