@@ -204,34 +204,47 @@ vec3 lit(Sample s, vec3 point, vec3 to_eye) {
     return light + ambient_at(s.surface, point, to_eye, s.occlusion);
 }
 
-float depth_at(ivec2 at) { return texelFetch(depth_image, at, 0).r; }
+// The G-buffer's size in pixels, and the share of it that is one.
+struct Screen {
+    ivec2 last;
+    vec2 pixel;
+};
+
+Screen screen_of_camera() {
+    vec2 size = vec2(camera.ray_per_px_x.w, camera.ray_per_px_y.w);
+    return Screen(ivec2(size) - 1, 1.0 / size);
+}
+
+// Sampled, not fetched: lavapipe takes longer over a fetch, whose level of detail it looks up for each sample.
+vec2 middle_of(Screen screen, ivec2 at) { return (vec2(at) + 0.5) * screen.pixel; }
+
+float depth_at(Screen screen, ivec2 at) { return textureLod(depth_image, middle_of(screen, at), 0.0).r; }
 
 // Nothing clears the G-buffer: what it holds where there is no surface, at depth 0, is of no interest.
-uvec4 gbuffer_words(ivec2 at, float depth) {
-    uvec4 words = texelFetch(gbuffer, at, 0);
+uvec4 gbuffer_words(Screen screen, ivec2 at, float depth) {
+    uvec4 words = textureLod(gbuffer, middle_of(screen, at), 0.0);
     return depth > 0.0 ? words : uvec4(0u);
 }
 
-vec3 normal_beside(ivec2 at) {
-    ivec2 most = ivec2(camera.ray_per_px_x.w, camera.ray_per_px_y.w) - 1;
-    ivec2 inside = clamp(at, ivec2(0), most);
-    return unpacked_normal(gbuffer_words(inside, depth_at(inside)).x);
+vec3 normal_beside(Screen screen, ivec2 at) {
+    ivec2 inside = clamp(at, ivec2(0), screen.last);
+    return unpacked_normal(gbuffer_words(screen, inside, depth_at(screen, inside)).x);
 }
 
 // Highlights narrower than the sample are widened to it: the spread of the normals around becomes roughness
 // (Kaplanyan et al. 2016, "Filtering Distributions of Normals for Shading Antialiasing").
-float widened_roughness(float roughness, vec3 normal, ivec2 at, float reach_px) {
+float widened_roughness(float roughness, vec3 normal, Screen screen, ivec2 at, float reach_px) {
     int reach = max(int(0.5 * reach_px + 0.5), 1);
-    vec3 dx = normal_beside(at + ivec2(reach, 0)) - normal;
-    vec3 dy = normal_beside(at + ivec2(0, reach)) - normal;
+    vec3 dx = normal_beside(screen, at + ivec2(reach, 0)) - normal;
+    vec3 dy = normal_beside(screen, at + ivec2(0, reach)) - normal;
     float spread = dot(dx, dx) + dot(dy, dy);
     float alpha = roughness * roughness;
     return sqrt(sqrt(clamp(alpha * alpha + min(0.5 * spread, 0.18), 0.0, 1.0)));
 }
 
 vec3 shade_sample(vec2 position_px, vec2 spacing_px) {
-    ivec2 most = ivec2(camera.ray_per_px_x.w, camera.ray_per_px_y.w) - 1;
-    ivec2 at = clamp(ivec2(floor(position_px)), ivec2(0), most);
+    Screen screen = screen_of_camera();
+    ivec2 at = clamp(ivec2(floor(position_px)), ivec2(0), screen.last);
     float reach_px = kUseFootprint == 1u ? sqrt(spacing_px.x * spacing_px.y) : 1.0;
 
     // Find the nearest blended surface and where the eye sees through it.
@@ -239,11 +252,11 @@ vec3 shade_sample(vec2 position_px, vec2 spacing_px) {
     float glass_depth = 0.0;
     vec4 glass = vec4(0.0);
     ivec2 behind_at = at;
-    float behind_depth = depth_at(at);
+    float behind_depth = depth_at(screen, at);
     if (kBlend == 1u) {
-        glass_depth = texelFetch(blended_depth, at, 0).r;
+        glass_depth = textureLod(blended_depth, middle_of(screen, at), 0.0).r;
         bool in_front = glass_depth > behind_depth;
-        uvec4 there = texelFetch(blended, in_front ? at : ivec2(0), 0);
+        uvec4 there = textureLod(blended, middle_of(screen, in_front ? at : ivec2(0)), 0.0);
         if (in_front) {
             glass_words = there;
             glass = bytes_of(glass_words.w);
@@ -254,8 +267,8 @@ vec3 shade_sample(vec2 position_px, vec2 spacing_px) {
                                   dot(normal, normalize(camera.ray_per_px_y.xyz)));
                 float bend = 2.0 * glass.w / (1.0 + 2.0 * glass.w);
                 float reach = 0.06 * bend * glass_depth / (camera.eye.w * length(camera.ray_per_px_x.xyz));
-                ivec2 bent = clamp(at - ivec2(aside * min(reach, 60.0)), ivec2(0), most);
-                float bent_depth = depth_at(bent);
+                ivec2 bent = clamp(at - ivec2(aside * min(reach, 60.0)), ivec2(0), screen.last);
+                float bent_depth = depth_at(screen, bent);
                 if (bent_depth < glass_depth) {
                     behind_at = bent;
                     behind_depth = bent_depth;
@@ -267,7 +280,7 @@ vec3 shade_sample(vec2 position_px, vec2 spacing_px) {
     }
 
     // Read the textures of what lies behind.
-    uvec4 behind_words = gbuffer_words(behind_at, behind_depth);
+    uvec4 behind_words = gbuffer_words(screen, behind_at, behind_depth);
     Sample behind;
     vec3 tilt = vec3(0.0, 0.0, 1.0);
     if (kLate == 1u) behind = late_sample(behind_words, reach_px, tilt);
@@ -297,7 +310,7 @@ vec3 shade_sample(vec2 position_px, vec2 spacing_px) {
             s.surface.base_color *= covers;
             if (dot(s.surface.normal, to_eye) < 0.0) s.surface.normal = -s.surface.normal;
         } else {
-            s.surface.roughness = widened_roughness(s.surface.roughness, s.surface.normal, here, reach_px);
+            s.surface.roughness = widened_roughness(s.surface.roughness, s.surface.normal, screen, here, reach_px);
             if (kLate == 1u && any_has(kBindNormal)) s.surface.normal = tilted(s.surface.normal, words.z, tilt);
         }
         vec3 light = lit(s, point, to_eye);
