@@ -27,9 +27,10 @@ const uint kKernelLinearMar = 4u;
 // KernelMap::doublings of an alpha that is not 1, 2, 4 or 8.
 const uint kAnyAlpha = 99u;
 
-// Uniform block; std140; of so many vec4. Sizes in pixels or texels as floats.
+// How many vec4 a KernelMap fills.
 const uint kMapWords = 7u;
 
+// Uniform block; std140. Sizes in pixels or texels as floats.
 struct KernelMap {
     vec2 screen_size;      // W, H
     vec2 buffer_size;      // w, h
