@@ -107,8 +107,8 @@ SHARED_FUNCTION float inverse_kernel(KernelMap map, float y) {
     return natural_log(1.0f + y * 1.71828182845905f);
 }
 
-// Screen position to buffer position, as shares of the buffer's width and height (Algorithm 1). r < 1 counts as
-// r = 1. u in [0, 1] on screen, v in [0, 1).
+// Screen position to buffer position, as shares of the buffer's width and height (Algorithm 1). r < 1 counts
+// as r = 1. u in [0, 1] on screen, v in [0, 1).
 SHARED_FUNCTION vec2 share_from_screen(KernelMap map, vec2 position) {
     float x = position.x - map.gaze.x;
     float y = position.y - map.gaze.y;
