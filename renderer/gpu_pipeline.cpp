@@ -222,16 +222,23 @@ OwnedPipeline make_graphics_pipeline(Gpu& gpu, const GraphicsPipelineDescription
     return {gpu.device(), pipeline};
 }
 
+GraphicsPipelineDescription fullscreen_pass(std::span<const std::uint32_t> fragment, VkPipelineLayout layout,
+                                            std::vector<VkFormat> color_formats,
+                                            std::vector<ShaderConstant> constants) {
+    GraphicsPipelineDescription pass;
+    pass.vertex = shader_code::fullscreen_vert;
+    pass.fragment = fragment;
+    pass.layout = layout;
+    pass.color_formats = std::move(color_formats);
+    pass.constants = std::move(constants);
+    return pass;
+}
+
 OwnedPipeline make_fullscreen_pipeline(Gpu& gpu, std::span<const std::uint32_t> fragment,
                                        VkPipelineLayout layout, std::vector<VkFormat> color_formats,
                                        std::vector<ShaderConstant> constants) {
-    GraphicsPipelineDescription description;
-    description.vertex = shader_code::fullscreen_vert;
-    description.fragment = fragment;
-    description.layout = layout;
-    description.color_formats = std::move(color_formats);
-    description.constants = std::move(constants);
-    return make_graphics_pipeline(gpu, description);
+    return make_graphics_pipeline(
+        gpu, fullscreen_pass(fragment, layout, std::move(color_formats), std::move(constants)));
 }
 
 OwnedPipeline make_compute_pipeline(Gpu& gpu, std::span<const std::uint32_t> code, VkPipelineLayout layout,

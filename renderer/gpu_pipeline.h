@@ -90,8 +90,10 @@ struct GraphicsPipelineDescription {
 };
 OwnedPipeline make_graphics_pipeline(Gpu& gpu, const GraphicsPipelineDescription& description);
 
-// A pipeline that covers the whole target with one triangle (shaders/fullscreen.vert) and runs a fragment
-// shader.
+// One triangle over the whole target, at depth 0 (shaders/fullscreen.vert), and a fragment shader.
+GraphicsPipelineDescription fullscreen_pass(std::span<const std::uint32_t> fragment, VkPipelineLayout layout,
+                                            std::vector<VkFormat> color_formats,
+                                            std::vector<ShaderConstant> constants = {});
 OwnedPipeline make_fullscreen_pipeline(Gpu& gpu, std::span<const std::uint32_t> fragment,
                                        VkPipelineLayout layout, std::vector<VkFormat> color_formats,
                                        std::vector<ShaderConstant> constants = {});

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <utility>
 
-#include "shader_code/fullscreen_vert.h"
 #include "shader_code/inset_meshes.h"
 #include "shader_code/inset_picture.h"
 #include "shader_code/inset_primitives.h"
@@ -67,13 +66,9 @@ OwnedPipeline make_inset_pipeline(Gpu& gpu, const ShadingSource& source, VkPipel
                                   VkFormat target_format, std::vector<ShaderConstant> constants) {
     const ShadingCode code{shader_code::inset_meshes, shader_code::inset_primitives,
                            shader_code::inset_picture};
-    GraphicsPipelineDescription inset;
-    inset.vertex = shader_code::fullscreen_vert;
-    inset.fragment = code.of(source.thing);
-    inset.layout = layout;
-    inset.color_formats = {target_format};
+    GraphicsPipelineDescription inset =
+        fullscreen_pass(code.of(source.thing), layout, {target_format}, std::move(constants));
     inset.alpha_blend = true;
-    inset.constants = std::move(constants);
     return make_graphics_pipeline(gpu, inset);
 }
 

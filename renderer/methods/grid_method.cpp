@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "renderer/methods/gaze_disc.h"
-#include "shader_code/fullscreen_vert.h"
 #include "shader_code/grid_mask.h"
 #include "shader_code/grid_mask_detail.h"
 #include "shader_code/grid_mask_rings.h"
@@ -87,15 +86,13 @@ GridMethod::Pipelines GridMethod::make_pipelines(const GridPlan& plan) const {
     const std::vector<ShaderConstant> constants{
         {0, plan.kind}, {1, plan.interpolate_tiles ? 1U : 0U}, {2, plan.culling ? 1U : 0U}};
 
-    GraphicsPipelineDescription mask;
-    mask.vertex = shader_code::fullscreen_vert;
-    mask.layout = mask_layout_.get();
+    GraphicsPipelineDescription mask =
+        fullscreen_pass(shader_code::grid_mask, mask_layout_.get(), {},
+                        joined(constants, {{3, plan.look_at_detail ? 1U : 0U}}));
     mask.depth_format = kGridMaskFormat;
     mask.depth_test = true;
     mask.depth_write = true;
     mask.depth_compare = VK_COMPARE_OP_ALWAYS;
-    mask.fragment = shader_code::grid_mask;
-    mask.constants = joined(constants, {{3, plan.look_at_detail ? 1U : 0U}});
     made.mask[0] = make_graphics_pipeline(gpu_, mask);
     const bool tiles_by_detail = plan.look_at_detail && plan.kind == shared::kGridTiles;
     if (tiles_by_detail) {
@@ -104,15 +101,12 @@ GridMethod::Pipelines GridMethod::make_pipelines(const GridPlan& plan) const {
         made.mask[1] = make_graphics_pipeline(gpu_, mask);
     }
 
-    GraphicsPipelineDescription shading;
-    shading.vertex = shader_code::fullscreen_vert;
-    shading.fragment = kShading.of(source_.thing);
-    shading.layout = shading_layout_.get();
-    shading.color_formats = {formats_.samples};
+    GraphicsPipelineDescription shading =
+        fullscreen_pass(kShading.of(source_.thing), shading_layout_.get(), {formats_.samples},
+                        joined(source_.constants, constants));
     shading.depth_format = kGridMaskFormat;
     shading.depth_test = true;
     shading.depth_compare = VK_COMPARE_OP_LESS;
-    shading.constants = joined(source_.constants, constants);
     made.shading = make_graphics_pipeline(gpu_, shading);
 
     if (plan.look_at_detail && !tiles_by_detail) add_ring_rounds(plan, mask, shading, made);

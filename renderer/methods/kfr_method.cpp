@@ -11,7 +11,6 @@
 
 #include "renderer/methods/gaze_disc.h"
 #include "renderer/methods/method_parameters.h"
-#include "shader_code/fullscreen_vert.h"
 #include "shader_code/internal_filter.h"
 #include "shader_code/map_corners_shading_vert.h"
 #include "shader_code/map_corners_vert.h"
@@ -52,19 +51,6 @@ std::uint32_t side(int pixels) {
 void keep_to_columns(VkCommandBuffer commands, SizePx buffer, std::uint32_t first, std::uint32_t end) {
     const VkRect2D columns{{static_cast<std::int32_t>(first), 0}, {end - first, side(buffer.height)}};
     vkCmdSetScissor(commands, 0, 1, &columns);
-}
-
-// A pass over a whole target.
-GraphicsPipelineDescription whole_pass(std::span<const std::uint32_t> vertex,
-                                       std::span<const std::uint32_t> fragment, VkPipelineLayout layout,
-                                       VkFormat format, std::vector<ShaderConstant> constants) {
-    GraphicsPipelineDescription description;
-    description.vertex = vertex;
-    description.fragment = fragment;
-    description.layout = layout;
-    description.color_formats = {format};
-    description.constants = std::move(constants);
-    return description;
 }
 
 // Keeps a pass to where the mask says that a texel is needed: its triangle has depth 0.
@@ -144,15 +130,12 @@ KfrMethod::Pipelines KfrMethod::make_pipelines() const {
     const shared::KernelMap map = make_kernel_map({1, 1}, {}, setting_.kernel);
     const std::vector<ShaderConstant> map_constants{{0, map.kernel}, {1, map.as_printed}, {3, map.doublings}};
     if (setting_.culling) {
-        GraphicsPipelineDescription mask;
-        mask.vertex = shader_code::fullscreen_vert;
-        mask.fragment = shader_code::read_mask;
-        mask.layout = layouts_.mask.get();
+        GraphicsPipelineDescription mask =
+            fullscreen_pass(shader_code::read_mask, layouts_.mask.get(), {}, map_constants);
         mask.depth_format = kKfrMaskFormat;
         mask.depth_test = true;
         mask.depth_write = true;
         mask.depth_compare = VK_COMPARE_OP_ALWAYS;
-        mask.constants = map_constants;
         mask.constants.push_back({2, setting_.internal_filter ? 1U : 0U});
         made.mask = make_graphics_pipeline(gpu_, mask);
     }
@@ -162,34 +145,34 @@ KfrMethod::Pipelines KfrMethod::make_pipelines() const {
         made.shading = make_compute_pipeline(gpu_, kComputeShading.of(source_.thing),
                                              layouts_.listed_shading.get(), shading_constants);
     } else {
-        GraphicsPipelineDescription shading =
-            whole_pass(shader_code::map_corners_shading_vert, kShading.of(source_.thing),
-                       layouts_.shading.get(), formats_.reduced, shading_constants);
+        GraphicsPipelineDescription shading = fullscreen_pass(
+            kShading.of(source_.thing), layouts_.shading.get(), {formats_.reduced}, shading_constants);
+        shading.vertex = shader_code::map_corners_shading_vert;
         if (setting_.culling) keep_to_mask(shading);
         made.shading = make_graphics_pipeline(gpu_, shading);
     }
     if (setting_.culling && KfrTargets::takes_light_of_pixels(source_.thing, setting_)) {
         made.pixels = make_fullscreen_pipeline(gpu_, kPixelShading.of(source_.thing), layouts_.shading.get(),
                                                {formats_.reduced}, shading_constants);
-        made.fine = make_graphics_pipeline(
-            gpu_, whole_pass(shader_code::map_corners_vert, shader_code::pass_1_fine, layouts_.resample.get(),
-                             formats_.reduced, map_constants));
+        GraphicsPipelineDescription fine = fullscreen_pass(shader_code::pass_1_fine, layouts_.resample.get(),
+                                                           {formats_.reduced}, map_constants);
+        fine.vertex = shader_code::map_corners_vert;
+        made.fine = make_graphics_pipeline(gpu_, fine);
     }
     if (setting_.internal_filter) {
         for (const std::uint32_t along_v : {0U, 1U}) {
-            GraphicsPipelineDescription filter =
-                whole_pass(shader_code::fullscreen_vert, shader_code::internal_filter, layouts_.filter.get(),
-                           formats_.reduced, {{0, along_v}});
+            GraphicsPipelineDescription filter = fullscreen_pass(
+                shader_code::internal_filter, layouts_.filter.get(), {formats_.reduced}, {{0, along_v}});
             if (setting_.culling) keep_to_mask(filter);
             (along_v == 0 ? made.filter_u : made.filter_v) = make_graphics_pipeline(gpu_, filter);
         }
     }
-    const std::span<const std::uint32_t> resample =
-        formats_.exact_bilinear ? std::span<const std::uint32_t>(shader_code::pass_2_exact)
-                                : shader_code::pass_2;
-    made.resample = make_graphics_pipeline(
-        gpu_, whole_pass(shader_code::map_corners_vert, resample, layouts_.resample.get(),
-                         setting_.post_filter ? kKfrScreenFormat : formats_.target, map_constants));
+    GraphicsPipelineDescription resample =
+        fullscreen_pass(shader_code::pass_2, layouts_.resample.get(),
+                        {setting_.post_filter ? kKfrScreenFormat : formats_.target}, map_constants);
+    resample.vertex = shader_code::map_corners_vert;
+    if (formats_.exact_bilinear) resample.fragment = shader_code::pass_2_exact;
+    made.resample = make_graphics_pipeline(gpu_, resample);
     if (setting_.post_filter) {
         made.post = make_fullscreen_pipeline(gpu_, shader_code::post_filter, layouts_.resample.get(),
                                              {formats_.target},
