@@ -1,6 +1,6 @@
 // The kernel log-polar map of this frame, binding 0 of the method's descriptor set. Define METHOD_SET before, or
-// MAP_HANDED_ON in fragment shaders behind map_corners.vert: lavapipe reads the words of a uniform block for each sample
-// anew, those that are handed on once for many.
+// MAP_HANDED_ON in fragment shaders behind map_corners.vert: lavapipe reads a uniform block for each sample anew, what is
+// handed on once for many.
 #ifndef MAP_BLOCK_GLSL
 #define MAP_BLOCK_GLSL
 
@@ -8,8 +8,8 @@
 
 #ifdef MAP_HANDED_ON
 
-layout(location = 0) flat in vec4 handed_map[kMapWords];
-layout(location = kMapWords) flat in vec2 jitter_share;  // this frame's jitter, in widths and heights of the buffer
+layout(location = 0) flat in vec4 handed_map[kMapVectors];
+layout(location = kMapVectors) flat in vec2 jitter_share;  // this frame's jitter, in widths and heights of the buffer
 
 KernelMap map_of_frame() {
     KernelMap m;

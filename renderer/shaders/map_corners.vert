@@ -3,14 +3,14 @@
 #include "jitter.glsl"
 #include "shared/kernel_map.h"
 
-layout(set = METHOD_SET, binding = 0, std140) uniform KernelMapBlock { vec4 words[kMapWords]; };
+layout(set = METHOD_SET, binding = 0, std140) uniform KernelMapBlock { vec4 vectors[kMapVectors]; };
 
-layout(location = 0) flat out vec4 handed_map[kMapWords];
-layout(location = kMapWords) flat out vec2 jitter_share;
+layout(location = 0) flat out vec4 handed_map[kMapVectors];
+layout(location = kMapVectors) flat out vec2 jitter_share;
 
 void main() {
     vec2 corner = vec2((gl_VertexIndex << 1) & 2, gl_VertexIndex & 2);
     gl_Position = vec4(corner * 2.0 - 1.0, 0.0, 1.0);
-    handed_map = words;
-    jitter_share = jitter / words[0].zw;
+    handed_map = vectors;
+    jitter_share = jitter / vectors[0].zw;
 }

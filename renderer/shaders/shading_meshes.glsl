@@ -204,7 +204,7 @@ vec3 lit(Sample s, vec3 point, vec3 to_eye) {
     return light + ambient_at(s.surface, point, to_eye, s.occlusion);
 }
 
-// The G-buffer's size in pixels, and the share of it that is one.
+// The G-buffer's last pixel, and the share of its sides that a pixel takes.
 struct Screen {
     ivec2 last;
     vec2 pixel;

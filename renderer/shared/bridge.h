@@ -1,5 +1,5 @@
-// Lets one header be read by C++ and by GLSL. Shared headers use scalars, vec2(x, y), plain structs and functions
-// that return by value; they write `f` on literals and use neither swizzles nor out parameters.
+// Lets one header be read by C++ and by GLSL. Shared headers use scalars, vec2(x, y), plain structs and
+// functions that return by value; they write `f` on literals and use neither swizzles nor out parameters.
 #ifndef PARAFOVEA_BRIDGE_H
 #define PARAFOVEA_BRIDGE_H
 
@@ -9,8 +9,8 @@
 #include <cmath>
 #include <cstdint>
 
-#define SHARED_BEGIN           \
-    namespace parafovea {      \
+#define SHARED_BEGIN      \
+    namespace parafovea { \
     namespace shared {
 #define SHARED_END \
     }              \
@@ -44,12 +44,22 @@ struct alignas(16) mat4 {
 };
 
 // The bits of a float as a whole number, and back.
-inline int bits_of(float x) { return std::bit_cast<int>(x); }
-inline float float_of(int bits) { return std::bit_cast<float>(bits); }
+inline int bits_of(float x) {
+    return std::bit_cast<int>(x);
+}
+inline float float_of(int bits) {
+    return std::bit_cast<float>(bits);
+}
 
-inline float min(float a, float b) { return a < b ? a : b; }
-inline float max(float a, float b) { return a > b ? a : b; }
-inline float clamp(float x, float low, float high) { return min(max(x, low), high); }
+inline float min(float a, float b) {
+    return a < b ? a : b;
+}
+inline float max(float a, float b) {
+    return a > b ? a : b;
+}
+inline float clamp(float x, float low, float high) {
+    return min(max(x, low), high);
+}
 
 }  // namespace shared
 }  // namespace parafovea
@@ -60,8 +70,12 @@ inline float clamp(float x, float low, float high) { return min(max(x, low), hig
 #define SHARED_END
 #define SHARED_FUNCTION
 
-int bits_of(float x) { return floatBitsToInt(x); }
-float float_of(int bits) { return intBitsToFloat(bits); }
+int bits_of(float x) {
+    return floatBitsToInt(x);
+}
+float float_of(int bits) {
+    return intBitsToFloat(bits);
+}
 
 #endif
 

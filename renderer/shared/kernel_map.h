@@ -28,7 +28,7 @@ const uint kKernelLinearMar = 4u;
 const uint kAnyAlpha = 99u;
 
 // How many vec4 a KernelMap fills.
-const uint kMapWords = 7u;
+const uint kMapVectors = 7u;
 
 // Uniform block; std140. Sizes in pixels or texels as floats.
 struct KernelMap {
@@ -173,7 +173,7 @@ static_assert(offsetof(parafovea::shared::KernelMap, kernel) == 32);
 static_assert(offsetof(parafovea::shared::KernelMap, beta_low) == 48);
 static_assert(offsetof(parafovea::shared::KernelMap, mar_slope) == 80);
 static_assert(offsetof(parafovea::shared::KernelMap, fine_corner) == 96);
-static_assert(sizeof(parafovea::shared::KernelMap) == 16 * parafovea::shared::kMapWords);
+static_assert(sizeof(parafovea::shared::KernelMap) == 16 * parafovea::shared::kMapVectors);
 #endif
 
 #endif

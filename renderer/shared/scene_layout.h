@@ -22,9 +22,9 @@ const uint kBindSurfaces = 10u;   // buffer, SurfaceMaterial[]: textures are rea
 const uint kBindColors = 11u;     // sampler2DArray, their textures of colour
 const uint kBindData = 12u;       // sampler2DArray, and those of numbers
 
-// Specialization constants of the shading shaders. Ids below 64 are free for the methods. What a scene does not have is
-// never asked of a uniform: lavapipe works branches on uniforms into the shader anew at every draw, which takes
-// milliseconds.
+// Specialization constants of the shading shaders. Ids below 64 are free for the methods. What a scene does
+// not have is never asked of a uniform: lavapipe works branches on uniforms into the shader anew at every
+// draw, which takes milliseconds.
 const uint kConstSunShadow = 64u;   // 1: the sun casts shadows
 const uint kConstBlend = 65u;       // 1: there are blended surfaces
 const uint kConstEmission = 66u;    // 1: the G-buffer's third and fourth words are there
@@ -61,8 +61,8 @@ const uint kGeometryConstants = 9u;
 // The length with which a left-handed tangent leaves the G-buffer's vertex shader; a right-handed one has 1.
 const float kLeftHandedLength = 64.0f;
 
-// What the G-buffer's vertex shader needs of an instance: attributes from kInstanceLocation on, one vec4 or column
-// at each.
+// What the G-buffer's vertex shader needs of an instance: attributes from kInstanceLocation on, one vec4 or
+// column at each.
 const uint kInstanceLocation = 5u;
 
 struct InstanceRecord {
